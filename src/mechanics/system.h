@@ -1,0 +1,192 @@
+/// Multibody systems: rigid bodies in Euler parameters, joints as constraints, elements that make
+/// forces, solved as [M Phi_q^T; Phi_q 0] [qdd; -lambda] = [F; gamma]  [Peng2023 Eq. 1].
+///
+/// A bt_system is the model: built once, constant after bt_system_assemble, shared by threads.
+/// A bt_state is one motion of it: one block of memory, copied with memcpy.
+///
+/// Frames. World: inertial. A body's frame has its origin at the centre of mass. Coordinates of a
+/// body: position (x, y, z) in the world and Euler parameters (e0, e1, e2, e3), body to world.
+/// Velocities: of the centre of mass in the world, angular velocity in the body frame.
+/// Wrenches: force in the world at the centre of mass, torque in the body frame.
+#ifndef BT_MECHANICS_SYSTEM_H
+#define BT_MECHANICS_SYSTEM_H
+
+#include "base/arena.h"
+#include "base/diag.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { BT_GROUND = -1 };
+
+typedef struct bt_system bt_system;
+typedef struct bt_state bt_state;
+
+typedef struct bt_body_def {
+    const char* name;       ///< copied
+    double mass_kg;         ///< > 0
+    double inertia_kgm2[6]; ///< xx yy zz xy xz yz about the centre of mass, body frame; positive
+                            ///< definite and obeying the triangle inequality. Off-diagonal entries
+                            ///< are tensor entries (xz = -integral x z dm)
+    double position_m[3];
+    double attitude[4];     ///< Euler parameters; normalised on entry
+    double velocity_mps[3]; ///< world
+    double spin_radps[3];   ///< body frame
+} bt_body_def;
+
+typedef enum bt_joint_kind {
+    BT_JOINT_REVOLUTE,       ///< 5: common point, common axis
+    BT_JOINT_PRISMATIC,      ///< 5: slides along the axis, no rotation
+    BT_JOINT_CYLINDRICAL,    ///< 4: slides along and turns about the axis
+    BT_JOINT_UNIVERSAL,      ///< 4: common point, axis (in a) stays perpendicular to axis_b (in b)
+    BT_JOINT_SPHERICAL,      ///< 3: common point
+    BT_JOINT_FIXED,          ///< 6
+    BT_JOINT_POINT_ON_LINE,  ///< 2: point of b on the line through the point of a along the axis
+    BT_JOINT_POINT_ON_PLANE, ///< 1: point of b in the plane through the point of a, normal axis
+    BT_JOINT_DISTANCE,       ///< 1: distance between the two points is length_m
+} bt_joint_kind;
+
+/// A joint is given in the frames of its bodies (in the world frame for BT_GROUND).
+typedef struct bt_joint_def {
+    const char* name; ///< copied
+    bt_joint_kind kind;
+    int body_a, body_b;
+    double point_a_m[3], point_b_m[3];
+    double axis_a[3], axis_b[3]; ///< normalised on entry. For UNIVERSAL the two arms of the cross.
+                                 ///< For the others axis_b is the same axis seen from b
+    double length_m;             ///< DISTANCE only, > 0
+    double attitude_ab[4];       ///< FIXED and PRISMATIC: attitude of b relative to a; all zero =
+                                 ///< the one at assembly
+} bt_joint_def;
+
+/// What an element may see of the motion.
+typedef struct bt_motion {
+    double time_s;
+    const double* q; ///< [7 * body_count]
+    const double* v; ///< [6 * body_count]
+    const double* rotation; ///< [9 * body_count] row-major, body to world, made from q
+} bt_motion;
+
+struct bt_element;
+
+/// A kind of element: one constant table, one file. `data` of an element is a copy of what its
+/// def pointed to.
+typedef struct bt_element_type {
+    const char* name;
+    size_t data_size;
+    int output_count; ///< doubles the element reports at each evaluation (stroke, force, ...)
+    const char* const* output_names; ///< with unit, for example "stroke_m"
+    /// Adds the element's wrenches [6 * body_count] and writes its outputs.
+    void (*force)(const struct bt_element* element, const bt_motion* motion, double* wrench,
+                  double* output);
+    /// Stored energy, J; NULL when the element stores none.
+    double (*energy)(const struct bt_element* element, const bt_motion* motion);
+    /// Whether it may take energy out (NULL energy and true: a damper). Conservative elements are
+    /// audited to zero.
+    bool dissipates;
+} bt_element_type;
+
+typedef struct bt_element {
+    const bt_element_type* type;
+    const char* name;
+    int body_a, body_b; ///< BT_GROUND allowed for one
+    const void* data;
+} bt_element;
+
+BT_CHECKED bt_status bt_system_create(bt_system** system);
+void bt_system_destroy(bt_system* system);
+
+/// Each returns the index of what was added, or -1 when memory ran out (reported again by
+/// bt_system_assemble). Names are copied, defs are not kept.
+int bt_system_add_body(bt_system* system, const bt_body_def* def);
+int bt_system_add_joint(bt_system* system, const bt_joint_def* def);
+int bt_system_add_element(bt_system* system, const bt_element* def);
+void bt_system_set_gravity(bt_system* system, const double gravity_mps2[3]);
+
+/// Checks bodies and joints, chooses the elimination order, and finds the consistent initial
+/// conditions nearest to the given ones (mass metric). Errors name the body or joint.
+BT_CHECKED bt_status bt_system_assemble(bt_system* system, bt_diag* diag);
+
+int bt_system_body_count(const bt_system* system);
+int bt_system_constraint_count(const bt_system* system);
+int bt_system_redundant_count(const bt_system* system); ///< dependent constraint rows at assembly
+int bt_system_body_find(const bt_system* system, const char* name);
+int bt_system_joint_find(const bt_system* system, const char* name);
+int bt_system_element_find(const bt_system* system, const char* name);
+const double* bt_system_element_output(const bt_system* system, const bt_state* state,
+                                       int element);
+
+/// One motion: everything that changes, in one block.
+struct bt_state {
+    double time_s;
+    int64_t steps;
+    double* q;        ///< [7 * body_count]
+    double* v;        ///< [6 * body_count]
+    double* a;        ///< [6 * body_count] accelerations at the last evaluation
+    double* lambda;   ///< [constraint_count] multipliers at the last evaluation
+    double* applied;  ///< [6 * body_count] outside wrench, mean over the coming step; yours to set
+    double* output;   ///< element outputs, see bt_system_element_output
+    double* rotation; ///< [9 * body_count]
+    void* scratch;    ///< factors and work space
+    void* block;      ///< start of the one block
+    size_t block_size;
+};
+
+/// Lays a state out in the arena and sets it to the assembled initial conditions.
+BT_CHECKED bt_status bt_state_create(const bt_system* system, bt_arena* arena, bt_state* state);
+size_t bt_state_size(const bt_system* system); ///< bytes of arena it takes
+void bt_state_copy(const bt_system* system, bt_state* to, const bt_state* from);
+
+typedef enum bt_integrator {
+    BT_INTEGRATOR_SECOND_ORDER, ///< one evaluation and factorisation per step
+    BT_INTEGRATOR_FOURTH_ORDER, ///< for verification
+} bt_integrator;
+
+/// Where and why a step failed; element or body name, quantity.
+typedef struct bt_failure {
+    const char* where;
+    const char* quantity;
+    double time_s;
+} bt_failure;
+
+/// Advances by h: forces, KKT solve, advance, project. Allocates nothing. h may change from call
+/// to call. BT_ERR_NUMERIC with *failure filled when something is no longer finite or the
+/// constraints cannot be met.
+BT_CHECKED bt_status bt_system_step(const bt_system* system, bt_state* state, double h_s,
+                                    bt_integrator integrator, bt_failure* failure);
+
+/// Accelerations, multipliers and outputs at the present q, v (and `applied`) without moving.
+BT_CHECKED bt_status bt_system_evaluate(const bt_system* system, bt_state* state,
+                                        bt_failure* failure);
+
+/// After q or v were changed by hand: back onto the constraints, in the mass metric.
+BT_CHECKED bt_status bt_system_project(const bt_system* system, bt_state* state,
+                                       bt_failure* failure);
+
+/// Audit, at any time.
+typedef struct bt_audit {
+    double kinetic_J, potential_J; ///< potential: gravity and elements with energy
+    double momentum_Ns[3], angular_momentum_Nms[3]; ///< about the world origin
+    double position_residual, velocity_residual; ///< largest constraint error over its scale
+    double norm_error;                           ///< largest | |e| - 1 |
+} bt_audit;
+void bt_system_audit(const bt_system* system, const bt_state* state, bt_audit* audit);
+
+/// Force and torque that joint `joint` puts on its body b at the joint point, world frame, from
+/// the multipliers of the last evaluation.
+void bt_system_joint_load(const bt_system* system, const bt_state* state, int joint,
+                          double force_N[3], double torque_Nm[3]);
+
+/// Kinematics of a point fixed to a body (BT_GROUND: the world). Point in the body frame.
+void bt_point_position(const bt_motion* motion, int body, const double point_m[3],
+                       double position_m[3]);
+void bt_point_velocity(const bt_motion* motion, int body, const double point_m[3],
+                       double velocity_mps[3]);
+/// Adds a world force that acts at a world position to the wrench of a body.
+void bt_wrench_add(const bt_motion* motion, int body, const double position_m[3],
+                   const double force_N[3], double* wrench);
+/// Adds a world torque.
+void bt_wrench_add_torque(const bt_motion* motion, int body, const double torque_Nm[3],
+                          double* wrench);
+
+#endif
