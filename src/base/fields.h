@@ -13,8 +13,8 @@
 ///             TABLE  bt_table of (x, y) rows        `what` = x unit and y unit: m__m2
 ///             GROUP  nested struct bt_<what>_params `what` = its prefix
 ///   need      REQUIRED (a missing key is an error) or OPTIONAL (the fallback holds)
-///   fallback, least, greatest   SI; for LIST and TABLE the bounds of x and y values are checked
-///             by the owner; write 0, 0, 0 for GROUP
+///   fallback, least, greatest   SI; for LIST the bounds hold for every value when least is below
+///             greatest; the bounds of a TABLE are checked by the owner; write 0, 0, 0 for GROUP
 ///   equation  "Eq. 3", or "" where the paper has none
 ///   text      meaning, symbol first; ends in [assumed] or [calibrated] when its fallback has no
 ///             source

@@ -27,6 +27,11 @@ BT_CHECKED bt_status bt_unit_parse(const char* text, const char* token, double* 
 /// double ("3.6 m/s").
 void bt_unit_print(double value, const char* token, char* text, size_t size);
 
+/// Writes an SI value in the unit that `typed` ends in, rounded to 6 digits, without the unit
+/// ("52" for 0.9076 when typed is "60 deg"); in SI when that unit is unknown. Points *unit at the
+/// unit's text inside typed ("" when there is none).
+void bt_unit_print_as(double value, const char* typed, char* text, size_t size, const char** unit);
+
 /// Reads a plain finite number, whole text, independent of the locale. BT_ERR_INPUT otherwise.
 BT_CHECKED bt_status bt_number_parse(const char* text, double* value);
 

@@ -1,0 +1,108 @@
+#include "base/text.h"
+
+#include <locale.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// Enters the C locale on this thread; hand the result to leave_c_locale.
+static locale_t enter_c_locale(void) {
+    // glibc hands out a constant object for "C": nothing is allocated
+    return uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
+}
+
+static void leave_c_locale(locale_t before) {
+    freelocale(uselocale(before));
+}
+
+static const char* skip_digits(const char* p) {
+    while (*p >= '0' && *p <= '9')
+        ++p;
+    return p;
+}
+
+const char* bt_text_scan_number(const char* text, double* value) {
+    const char* p = text + (*text == '+' || *text == '-');
+    const char* digits = p;
+    p = skip_digits(p);
+    ptrdiff_t digit_count = p - digits;
+    if (*p == '.') {
+        const char* fraction = ++p;
+        p = skip_digits(p);
+        digit_count += p - fraction;
+    }
+    if (digit_count == 0)
+        return text;
+    if (*p == 'e' || *p == 'E') {
+        const char* exponent = p + 1 + (p[1] == '+' || p[1] == '-');
+        if (skip_digits(exponent) != exponent)
+            p = skip_digits(exponent);
+    }
+
+    char number[512]; // digits beyond these cannot be told from a mistake
+    const size_t length = (size_t)(p - text);
+    if (length >= sizeof number)
+        return text;
+    memcpy(number, text, length);
+    number[length] = '\0';
+    const locale_t before = enter_c_locale();
+    *value = strtod(number, NULL);
+    leave_c_locale(before);
+    return p;
+}
+
+void bt_text_print_rounded(double value, int digits, char* text, size_t size) {
+    const locale_t before = enter_c_locale();
+    snprintf(text, size, "%.*g", digits, value);
+    leave_c_locale(before);
+}
+
+void bt_text_print_number(double value, char* text, size_t size) {
+    char number[64];
+    for (int digits = 1; digits <= 17; ++digits) {
+        bt_text_print_rounded(value, digits, number, sizeof number);
+        double again;
+        bt_text_scan_number(number, &again);
+        if (memcmp(&again, &value, sizeof value) == 0)
+            break;
+    }
+    snprintf(text, size, "%s", number);
+}
+
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+int bt_text_distance(const char* a, const char* b) {
+    enum { MAX = 63 };
+    const size_t length_a = strlen(a), length_b = strlen(b);
+    if (length_a > MAX || length_b > MAX)
+        return 2 * MAX;
+    // rows i - 2, i - 1 and i of the table of distances between beginnings of a and b
+    int rows[3][MAX + 1] = {{0}};
+    for (size_t j = 0; j <= length_b; ++j)
+        rows[0][j] = (int)j;
+    for (size_t i = 1; i <= length_a; ++i) {
+        int* row = rows[i % 3];
+        const int* above = rows[(i - 1) % 3];
+        const int* above2 = rows[(i + 1) % 3];
+        row[0] = (int)i;
+        for (size_t j = 1; j <= length_b; ++j) {
+            row[j] = least(least(above[j], row[j - 1]) + 1, above[j - 1] + (a[i - 1] != b[j - 1]));
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = least(row[j], above2[j - 2] + 1);
+        }
+    }
+    return rows[length_a % 3][length_b];
+}
+
+void bt_text_append(char* buffer, size_t size, const char* format, ...) {
+    const size_t used = strlen(buffer);
+    if (used + 1 >= size)
+        return;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(buffer + used, size - used, format, args);
+    va_end(args);
+}

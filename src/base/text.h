@@ -1,0 +1,27 @@
+/// Text that does not depend on the locale of the process.
+#ifndef BT_BASE_TEXT_H
+#define BT_BASE_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/// Reads the decimal number at the start of text: [+-] digits [. digits] [e [+-] digits].
+/// No hexadecimal, no nan, no inf. Returns the first character after it; text when there is none.
+/// A number too large for a double becomes infinite.
+const char* bt_text_scan_number(const char* text, double* value);
+
+/// Writes a finite double with the fewest digits (at most 17) that read back to the same bits.
+void bt_text_print_number(double value, char* text, size_t size);
+
+/// Writes a double with `digits` significant digits (as %.*g).
+void bt_text_print_rounded(double value, int digits, char* text, size_t size);
+
+/// The number of single-character insertions, deletions, substitutions and swaps of neighbours
+/// that turn a into b. Names longer than 63 characters are taken as unlike everything.
+int bt_text_distance(const char* a, const char* b);
+
+/// Appends formatted text at the end of a terminated buffer; cuts what does not fit.
+void bt_text_append(char* buffer, size_t size, const char* format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+#endif
