@@ -1,0 +1,38 @@
+/// The study directory: where everything a study produces is kept. One process at a time writes
+/// in it; every file appears under its name only when it is complete.
+#ifndef BT_CAMPAIGN_DIRECTORY_H
+#define BT_CAMPAIGN_DIRECTORY_H
+
+#include "base/diag.h"
+
+#include <stddef.h>
+
+enum { BT_FILE_PATH_MAX = 4352 };
+
+/// The right to write in a study directory.
+typedef struct bt_directory {
+    const char* path; ///< the caller's
+    int lock;         ///< descriptor; -1 when not held
+} bt_directory;
+
+/// Makes the directory (and those above it) and takes its lock. The lock goes with the process,
+/// however it ends. BT_ERR_IO, said in diag: cannot be made or written, or another process
+/// (named) works in it. `path` must outlive the directory.
+BT_CHECKED bt_status bt_directory_open(bt_directory* directory, const char* path, bt_diag* diag);
+
+/// Gives the lock back; accepts one that was never opened if its lock is -1.
+void bt_directory_close(bt_directory* directory);
+
+/// "PATH/NAME" into a buffer of BT_FILE_PATH_MAX bytes. BT_ERR_ARG when it does not fit.
+BT_CHECKED bt_status bt_file_path(char* buffer, const char* directory, const char* name);
+
+/// Writes a whole file under a temporary name beside it, forces it to disk and renames it: a
+/// reader sees the old file or the new one, never a part. BT_ERR_IO, said in diag; what was there
+/// before stays.
+BT_CHECKED bt_status bt_file_write(const char* path, const char* data, size_t size, bt_diag* diag);
+
+/// Reads a whole file into memory that the caller frees; a zero byte follows the data. size may be
+/// NULL. BT_ERR_IO, said in diag; BT_ERR_MEMORY.
+BT_CHECKED bt_status bt_file_read(const char* path, char** data, size_t* size, bt_diag* diag);
+
+#endif
