@@ -1,6 +1,7 @@
 #include "base/text.h"
 
 #include <locale.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -58,15 +59,35 @@ void bt_text_print_rounded(double value, int digits, char* text, size_t size) {
     leave_c_locale(before);
 }
 
+/// "6.5e+06" to "6.5e6", "1e-05" to "1e-5".
+static void shorten_exponent(char* number) {
+    char* e = strchr(number, 'e');
+    if (!e)
+        return;
+    const char* from = e + 1;
+    char* to = e + 1;
+    if (*from == '-')
+        *to++ = *from;
+    ++from;
+    from += strspn(from, "0");
+    memmove(to, from, strlen(from) + 1);
+}
+
 void bt_text_print_number(double value, char* text, size_t size) {
     char number[64];
-    for (int digits = 1; digits <= 17; ++digits) {
+    int digits = 1;
+    for (; digits < 17; ++digits) {
         bt_text_print_rounded(value, digits, number, sizeof number);
-        double again;
+        double again = 0;
         bt_text_scan_number(number, &again);
         if (memcmp(&again, &value, sizeof value) == 0)
             break;
     }
+    // as people write it: 24000, not 2.4e4
+    if (fabs(value) < 1e6 && fabs(value) >= 1 && digits < 6)
+        digits = 6;
+    bt_text_print_rounded(value, digits, number, sizeof number);
+    shorten_exponent(number);
     snprintf(text, size, "%s", number);
 }
 

@@ -10,7 +10,8 @@
 /// A number too large for a double becomes infinite.
 const char* bt_text_scan_number(const char* text, double* value);
 
-/// Writes a finite double with the fewest digits (at most 17) that read back to the same bits.
+/// Writes a finite double with the fewest digits (at most 17) that read back to the same bits:
+/// 24000, 0.0365, 6.5e6.
 void bt_text_print_number(double value, char* text, size_t size);
 
 /// Writes a double with `digits` significant digits (as %.*g).

@@ -192,6 +192,16 @@ static void printed_values_read_back_to_the_same_bits(void** state) {
     char text[128];
     bt_unit_print(3.6, "mps", text, sizeof text);
     assert_string_equal(text, "3.6 m/s");
+    static const struct {
+        double value;
+        const char* text;
+    } rows[] = {{24000, "24000 m/s"},       {999999, "999999 m/s"}, {6.5e6, "6.5e6 m/s"},
+                {1e-5, "1e-5 m/s"},         {0.0365, "0.0365 m/s"}, {1e100, "1e100 m/s"},
+                {-1.25e-7, "-1.25e-7 m/s"}, {10, "10 m/s"},         {100000, "100000 m/s"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        bt_unit_print(rows[i].value, "mps", text, sizeof text);
+        assert_string_equal(text, rows[i].text);
+    }
     bt_unit_print(-0.0, "1", text, sizeof text);
     assert_string_equal(text, "-0");
 }

@@ -1,0 +1,172 @@
+#include "near.h"
+
+#include "base/distribution.h"
+#include "base/rng.h"
+
+static const bt_distribution samples[] = {
+    {.kind = BT_NORMAL, .mean = 3.6, .sd = 0.9},
+    {.kind = BT_TRUNCATED_NORMAL, .mean = 6, .sd = 2, .lower = 0.5, .upper = 9},
+    {.kind = BT_TRUNCATED_NORMAL, .mean = 0, .sd = 1, .lower = 6, .upper = 9}, // far tail
+    {.kind = BT_TRUNCATED_NORMAL, .mean = 0, .sd = 1, .lower = -9, .upper = -6},
+    {.kind = BT_LOGNORMAL, .mean = 5, .sd = 2},
+    {.kind = BT_UNIFORM, .lower = -3, .upper = 7},
+    {.kind = BT_TRIANGULAR, .lower = 1, .mode = 2, .upper = 6},
+    {.kind = BT_TRIANGULAR, .lower = 1, .mode = 1, .upper = 6},
+    {.kind = BT_WEIBULL, .scale = 3, .shape = 1.7, .lower = 0.4},
+    {.kind = BT_GUMBEL, .mode = 40, .scale = 5},
+    {.kind = BT_EXPONENTIAL, .mean = 4, .lower = 1},
+};
+enum { SAMPLES = sizeof samples / sizeof samples[0] };
+
+static void quantile_and_probability_are_inverse(void** state) {
+    (void)state;
+    for (int i = 0; i < SAMPLES; ++i) {
+        assert_null(bt_distribution_check(&samples[i]));
+        for (int k = 1; k < 1000; ++k) {
+            const double u = k / 1000.0;
+            const double x = bt_distribution_quantile(&samples[i], u);
+            BT_ASSERT_NEAR(bt_distribution_cdf(&samples[i], x), u, 1e-9, 1e-12);
+        }
+    }
+}
+
+static void quantiles_rise_and_stay_finite_to_the_ends_of_the_generator(void** state) {
+    (void)state;
+    for (int i = 0; i < SAMPLES; ++i) {
+        double last = bt_distribution_quantile(&samples[i], 0x1p-53);
+        assert_true(isfinite(last));
+        for (int k = 1; k < 1000; ++k) {
+            const double x = bt_distribution_quantile(&samples[i], k / 1000.0);
+            assert_true(x > last);
+            last = x;
+        }
+        const double top = bt_distribution_quantile(&samples[i], 1 - 0x1p-53);
+        assert_true(isfinite(top) && top > last);
+    }
+}
+
+static void mean_and_sd_are_those_of_the_quantiles(void** state) {
+    (void)state;
+    // integrals over u by the midpoint rule in t, u = t^3 (10 - 15 t + 6 t^2): flat at both ends,
+    // where quantiles may go to infinity
+    enum { CELLS = 20000 };
+    for (int i = 0; i < SAMPLES; ++i) {
+        double sum = 0, sum2 = 0;
+        for (int k = 0; k < CELLS; ++k) {
+            const double t = (k + 0.5) / CELLS;
+            const double u = t * t * t * (10 - 15 * t + 6 * t * t);
+            const double weight = 30 * t * t * (1 - t) * (1 - t) / CELLS;
+            const double x = bt_distribution_quantile(&samples[i], u);
+            sum += x * weight, sum2 += x * x * weight;
+        }
+        const double mean = bt_distribution_mean(&samples[i]), sd = bt_distribution_sd(&samples[i]);
+        BT_ASSERT_NEAR(sum, mean, 1e-7, 0);
+        BT_ASSERT_NEAR(sqrt(sum2 - sum * sum), sd, 1e-5, 0);
+    }
+}
+
+static void known_quantiles(void** state) {
+    (void)state;
+    BT_ASSERT_NEAR(bt_distribution_quantile(&samples[0], 0.975), 3.6 + 0.9 * 1.959963984540054,
+                   1e-15, 0);
+    BT_ASSERT_NEAR(bt_distribution_quantile(&samples[0], 0.5), 3.6, 1e-15, 0);
+    // lognormal: median = mean / sqrt(1 + (sd/mean)^2)
+    BT_ASSERT_NEAR(bt_distribution_quantile(&samples[4], 0.5), 5 / sqrt(1 + 4.0 / 25), 1e-14, 0);
+    // Weibull with shape 1 is exponential
+    const bt_distribution weibull = {.kind = BT_WEIBULL, .scale = 3, .shape = 1, .lower = 1};
+    const bt_distribution exponential = {.kind = BT_EXPONENTIAL, .mean = 4, .lower = 1};
+    BT_ASSERT_NEAR(bt_distribution_quantile(&weibull, 0.9),
+                   bt_distribution_quantile(&exponential, 0.9), 1e-15, 0);
+    // Gumbel: median = mode - scale ln ln 2
+    BT_ASSERT_NEAR(bt_distribution_quantile(&samples[9], 0.5), 40 - 5 * log(log(2)), 1e-15, 0);
+}
+
+static void probabilities_outside_the_support_are_zero_and_one(void** state) {
+    (void)state;
+    static const struct {
+        int sample;
+        double below, above;
+    } rows[] = {{1, 0.4, 9.1}, {5, -3.1, 7.1}, {6, 0.9, 6.1}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        assert_true(bt_distribution_cdf(&samples[rows[i].sample], rows[i].below) == 0);
+        assert_true(bt_distribution_cdf(&samples[rows[i].sample], rows[i].above) == 1);
+    }
+    assert_true(bt_distribution_cdf(&samples[4], -1) == 0);
+    assert_true(bt_distribution_cdf(&samples[8], 0.3) == 0);
+    assert_true(bt_distribution_cdf(&samples[10], 0.9) == 0);
+}
+
+static void moving_changes_the_mean_and_nothing_else(void** state) {
+    (void)state;
+    for (int i = 0; i < SAMPLES; ++i) {
+        const double to = bt_distribution_mean(&samples[i]) + 1.25;
+        const bt_distribution moved = bt_distribution_moved(&samples[i], to);
+        assert_null(bt_distribution_check(&moved));
+        BT_ASSERT_NEAR(bt_distribution_mean(&moved), to, 1e-9, 0);
+        BT_ASSERT_NEAR(bt_distribution_sd(&moved), bt_distribution_sd(&samples[i]), 1e-6, 0);
+    }
+}
+
+static void a_constant_does_not_scatter(void** state) {
+    (void)state;
+    const bt_distribution c = {.kind = BT_CONSTANT, .mean = 2.5};
+    assert_true(bt_distribution_quantile(&c, 0.01) == 2.5);
+    assert_true(bt_distribution_quantile(&c, 0.99) == 2.5);
+    assert_true(bt_distribution_cdf(&c, 2.4) == 0 && bt_distribution_cdf(&c, 2.5) == 1);
+    assert_true(bt_distribution_mean(&c) == 2.5 && bt_distribution_sd(&c) == 0);
+    assert_true(bt_distribution_moved(&c, 4).mean == 4);
+}
+
+static void unsound_parameters_are_named(void** state) {
+    (void)state;
+    static const struct {
+        bt_distribution d;
+        const char* says;
+    } rows[] = {
+        {{.kind = BT_NORMAL, .mean = 1}, "sd must be positive"},
+        {{.kind = BT_NORMAL, .mean = NAN, .sd = 1}, "a parameter is not finite"},
+        {{.kind = BT_TRUNCATED_NORMAL, .sd = -1}, "sd must be positive"},
+        {{.kind = BT_TRUNCATED_NORMAL, .sd = 1, .lower = 2, .upper = 2},
+         "lower must be below upper"},
+        {{.kind = BT_TRUNCATED_NORMAL, .sd = 1, .lower = 20, .upper = 30},
+         "the bounds leave nothing of the normal"},
+        {{.kind = BT_LOGNORMAL, .mean = 0, .sd = 1}, "mean must be positive"},
+        {{.kind = BT_LOGNORMAL, .mean = 1, .sd = 0}, "sd must be positive"},
+        {{.kind = BT_UNIFORM, .lower = 1, .upper = 0}, "lower must be below upper"},
+        {{.kind = BT_TRIANGULAR, .lower = 1, .upper = 0}, "lower must be below upper"},
+        {{.kind = BT_TRIANGULAR, .lower = 0, .upper = 1, .mode = 2},
+         "mode must lie in lower .. upper"},
+        {{.kind = BT_WEIBULL, .shape = 1}, "scale must be positive"},
+        {{.kind = BT_WEIBULL, .scale = 1}, "shape must be positive"},
+        {{.kind = BT_GUMBEL}, "scale must be positive"},
+        {{.kind = BT_EXPONENTIAL, .mean = 1, .lower = 1}, "mean must be above lower"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i)
+        assert_string_equal(bt_distribution_check(&rows[i].d), rows[i].says);
+}
+
+static void names_and_parameters_are_complete(void** state) {
+    (void)state;
+    for (int kind = 0; kind < BT_DISTRIBUTION_KINDS; ++kind) {
+        assert_non_null(bt_distribution_names[kind]);
+        assert_non_null(bt_distribution_parameters((bt_distribution_kind)kind)[0]);
+    }
+    assert_null(bt_distribution_names[BT_DISTRIBUTION_KINDS]);
+    assert_string_equal(bt_distribution_names[BT_CONSTANT], "constant");
+    assert_string_equal(bt_distribution_names[BT_WEIBULL], "weibull");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quantile_and_probability_are_inverse),
+        cmocka_unit_test(quantiles_rise_and_stay_finite_to_the_ends_of_the_generator),
+        cmocka_unit_test(mean_and_sd_are_those_of_the_quantiles),
+        cmocka_unit_test(known_quantiles),
+        cmocka_unit_test(probabilities_outside_the_support_are_zero_and_one),
+        cmocka_unit_test(moving_changes_the_mean_and_nothing_else),
+        cmocka_unit_test(a_constant_does_not_scatter),
+        cmocka_unit_test(unsound_parameters_are_named),
+        cmocka_unit_test(names_and_parameters_are_complete),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
