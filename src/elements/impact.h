@@ -84,9 +84,11 @@ typedef struct bt_hertz {
 
 /// Hertz contact of two bodies, exact.
 ///
-/// The half axes a >= b of the ellipse satisfy, with k^2 = 1 - (b/a)^2 and A, B half the principal
-/// relative curvatures, B / A = ((a/b)^2 E(k) - K(k)) / (K(k) - E(k)); then
-/// K = (4/3) E* sqrt(R_e) (pi/2)^1.5 ... as in docs/theory/impact.md  [Johnson 1985, 4.26-4.31].
+///     F = K delta^1.5,  K = (2 pi / 3) E* sqrt( 2 R_large D / K(k)^3 )      [Peng2023 Eq. 10]
+///
+/// with 1 / E* = (1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2, the complete elliptic integrals K(k) and
+/// D(k) = (K - E) / k^2, k^2 = 1 - (b/a)^2, and the half axes a >= b of the contact ellipse from
+/// R_large / R_small = (a/b)^2 (K - D) / D  [Johnson, Contact Mechanics, 1985, 4.25-4.28].
 ///
 /// @return BT_OK, or BT_ERR_ARG when the bodies do not touch in a point (a relative curvature
 ///         that is not positive: parallel cylinders, flat on flat, too hollow)

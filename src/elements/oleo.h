@@ -5,10 +5,9 @@
 #ifndef BT_ELEMENTS_OLEO_H
 #define BT_ELEMENTS_OLEO_H
 
-#include "base/fields.h"
+#include "elements/curve.h"
 
-extern const char* const bt_orifice_law_names[]; ///< "smooth", "linear", "stepped", NULL
-enum { BT_ORIFICE_SMOOTH, BT_ORIFICE_LINEAR, BT_ORIFICE_STEPPED };
+extern const char* const bt_orifice_law_names[]; ///< in the order of bt_curve_law
 
 // clang-format off
 #define BT_OLEO_FIELDS(F)                                                                          \
@@ -46,19 +45,26 @@ enum { BT_ORIFICE_SMOOTH, BT_ORIFICE_LINEAR, BT_ORIFICE_STEPPED };
 // clang-format on
 BT_DECLARE_GROUP(oleo, BT_OLEO_FIELDS)
 
-/// A strut ready to be evaluated: constants of the formulas, nothing shared, plain data.
+/// One gas stage: C p^(-1/n) is the volume of the gas that takes part.
+typedef struct bt_gas_stage {
+    double constant; ///< C = sum of V P^(1/n)
+    double volume;   ///< all gas volume with the strut extended
+    double pressure; ///< at which the stage begins
+    double energy;   ///< of the gas when it begins
+} bt_gas_stage;
+
+/// A strut ready to be evaluated: constants of the formulas, plain data.
 typedef struct bt_oleo {
-    double air_area, ambient, exponent;
-    double stage_stroke;              ///< where the second chamber lifts; infinite without one
-    double constant[2], volume[2];    ///< per stage: p = (constant / (volume - A_a s))^n
-    double energy[2];                 ///< per stage: integration constant of the gas energy
-    double oil_compliance, precharge; ///< V_oil / B and P_0
-    double compression, extension;    ///< rho A_h^3 / (2 C_d^2): over A_d^2 gives N s^2/m^2
+    double air_area, precharge, ambient, exponent;
+    double second_stroke;  ///< where the second chamber lifts; infinite without one
+    bt_gas_stage stage[2]; ///< first chamber alone; both
+    double oil_compliance; ///< V_oil / B, m3/Pa
+    double main_constant;  ///< rho A_h^3 / (2 C_d^2): over A_d^2 gives N s^2/m^2
     double side_compression, side_extension; ///< side orifice, N s^2/m^2
     double rebound_ratio, rebound_area;
-    int law, rows; ///< rows of the orifice table; 1: constant
-    double x[BT_LIST_MAX], y[BT_LIST_MAX], slope[BT_LIST_MAX];
+    bt_curve orifice; ///< A_d(s)
     double stroke_max, stop_stiffness, stop_damping;
+    bool rubs; ///< there is friction
     double seal_N, seal_coefficient, bearing, axle_distance, bearing_distance, friction_speed;
 } bt_oleo;
 

@@ -3,7 +3,7 @@
 #ifndef BT_ELEMENTS_TYRE_H
 #define BT_ELEMENTS_TYRE_H
 
-#include "base/fields.h"
+#include "elements/curve.h"
 
 extern const char* const bt_tyre_law_names[]; ///< "smiley_horne", "points", "power", NULL
 enum { BT_TYRE_SMILEY_HORNE, BT_TYRE_POINTS, BT_TYRE_POWER };
@@ -37,10 +37,10 @@ enum { BT_BUMP_MAX = 8, BT_TYRE_STRIPS = 24 };
 /// A tyre ready to be evaluated; plain data.
 typedef struct bt_tyre {
     double radius, width, tyres, damping;
-    int law, rows;
+    int law;
+    bt_curve points;           ///< points: through (0, 0) and the rows
     double scale, cz;          ///< smiley_horne: F = scale f(d / w)
     double power_scale, power; ///< power: F = power_scale d^power
-    double x[BT_LIST_MAX + 1], y[BT_LIST_MAX + 1], slope[BT_LIST_MAX + 1];
     double bottoming, rim_stiffness;
     double cornering, cornering_scale;
     double friction, locked_friction, peak_slip, slip_speed;

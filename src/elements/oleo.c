@@ -1,0 +1,222 @@
+#include "elements/oleo.h"
+
+#include "elements/friction.h"
+
+#include <math.h>
+
+const char* const bt_orifice_law_names[] = {"smooth", "linear", "stepped", NULL};
+
+static void check_gas(const bt_oleo_params* p, const char* path, bt_diag* diag) {
+    const double swept = p->air_area_m2 * p->stroke_max_m;
+    const bool two = p->high_precharge_Pa > 0 || p->high_volume_m3 > 0;
+    const double volume = p->air_volume_m3 + (two ? p->high_volume_m3 : 0);
+    if (p->precharge_Pa < p->ambient_Pa)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s.precharge: %g Pa is below the ambient pressure of %g Pa; the precharge is "
+                    "absolute",
+                    path, p->precharge_Pa, p->ambient_Pa);
+    if (volume <= swept)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s.air_volume: the gas volume of %g m^3 is not above the swept volume "
+                    "air_area x stroke_max = %g m^3",
+                    path, volume, swept);
+    if (!two)
+        return;
+    if (p->high_volume_m3 <= 0)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s.high_volume: needed where high_precharge is given", path);
+    if (p->high_precharge_Pa <= p->precharge_Pa)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s.high_precharge: %g Pa is not above the precharge of %g Pa", path,
+                    p->high_precharge_Pa, p->precharge_Pa);
+}
+
+static void check_orifices(const bt_oleo_params* p, const char* path, bt_diag* diag) {
+    if (p->orifice_table.count > 0) {
+        const char* fault = bt_curve_fault(&p->orifice_table, 2);
+        if (fault)
+            bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "%s.orifice_table: %s", path, fault);
+        if (p->orifice_area_m2 > 0)
+            bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                        "%s.orifice_area: orifice_table is given too; give one of them", path);
+    } else if (p->orifice_area_m2 <= 0) {
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s.orifice_area: needed where orifice_table is not given", path);
+    }
+    if (p->side_area_m2 > 0 &&
+        (p->side_orifice_compression_m2 <= 0 || p->side_orifice_extension_m2 <= 0))
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s.side_area: needs side_orifice_compression and side_orifice_extension "
+                    "above 0",
+                    path);
+}
+
+static void check_oleo(const void* params, const char* path, bt_diag* diag) {
+    const bt_oleo_params* p = params;
+    check_gas(p, path, diag);
+    check_orifices(p, path, diag);
+    if (p->bearing_coefficient > 0 && p->side_load_ratio > 0 &&
+        p->axle_distance_m <= p->stroke_max_m)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s.axle_distance: %g m is not above stroke_max, so that the axle would pass "
+                    "the lower bearing",
+                    path, p->axle_distance_m);
+}
+
+// clang-format off
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_oleo_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(oleo, BT_OLEO_FIELDS, ROW, check_oleo, "oleo-pneumatic shock strut")
+// clang-format on
+
+/// Energy that gas takes up from pressure p0 to p: integral of -p dV with V = C p^(-1/n).
+static double gas_work(double constant, double n, double p0, double p) {
+    const double a = (n - 1) / n, ratio = log(p / p0);
+    if (a == 0)
+        return constant * ratio;
+    return constant / n * pow(p0, a) * expm1(a * ratio) / a;
+}
+
+static void prepare_gas(const bt_oleo_params* p, bt_oleo* o) {
+    const double n = p->gas_exponent, p1 = p->precharge_Pa, p2 = p->high_precharge_Pa;
+    const double c1 = p->air_volume_m3 * pow(p1, 1 / n);
+    o->air_area = p->air_area_m2;
+    o->precharge = p1;
+    o->ambient = p->ambient_Pa;
+    o->exponent = n;
+    o->oil_compliance = p->oil_volume_m3 / p->oil_bulk_modulus_Pa;
+    o->stage[0] = (bt_gas_stage){c1, p->air_volume_m3, p1, 0};
+    o->stage[1] = o->stage[0];
+    o->second_stroke = INFINITY;
+    if (p->high_volume_m3 <= 0)
+        return;
+    o->second_stroke =
+        (p->air_volume_m3 + o->oil_compliance * (p2 - p1) - c1 * pow(p2, -1 / n)) / p->air_area_m2;
+    o->stage[1] = (bt_gas_stage){c1 + p->high_volume_m3 * pow(p2, 1 / n),
+                                 p->air_volume_m3 + p->high_volume_m3, p2, gas_work(c1, n, p1, p2)};
+}
+
+/// rho A^3 / (2 C^2): over the orifice's area squared gives N s^2/m^2.
+static double flow_constant(double density, double area, double discharge) {
+    return density * area * area * area / (2 * discharge * discharge);
+}
+
+static void prepare_oil(const bt_oleo_params* p, bt_oleo* o) {
+    o->main_constant = flow_constant(p->oil_density_kgpm3, p->oil_area_m2, p->discharge);
+    o->rebound_ratio = p->rebound_ratio;
+    o->rebound_area = p->rebound_area_m2;
+    if (p->orifice_table.count > 0) {
+        bt_curve_make(&o->orifice, (bt_curve_law)p->orifice_law, p->orifice_table.count,
+                      p->orifice_table.x, p->orifice_table.y);
+    } else {
+        const double zero = 0;
+        bt_curve_make(&o->orifice, BT_CURVE_LINEAR, 1, &zero, &p->orifice_area_m2);
+    }
+    const double side = flow_constant(p->oil_density_kgpm3, p->side_area_m2, p->side_discharge);
+    const double in = p->side_orifice_compression_m2, out = p->side_orifice_extension_m2;
+    o->side_compression = side > 0 ? side / (in * in) : 0;
+    o->side_extension = side > 0 ? side / (out * out) : 0;
+}
+
+void bt_oleo_prepare(const bt_oleo_params* params, bt_oleo* oleo) {
+    const bt_oleo_params* p = params;
+    *oleo = (bt_oleo){0};
+    prepare_gas(p, oleo);
+    prepare_oil(p, oleo);
+    oleo->stroke_max = p->stroke_max_m;
+    oleo->stop_stiffness = p->stop_stiffness_Npm;
+    oleo->stop_damping = p->stop_damping_Npmps;
+    oleo->seal_N = p->seal_friction_N;
+    oleo->seal_coefficient = p->seal_coefficient;
+    oleo->bearing = p->bearing_coefficient * p->side_load_ratio;
+    oleo->axle_distance = p->axle_distance_m;
+    oleo->bearing_distance = p->bearing_distance_m;
+    oleo->friction_speed = p->friction_speed_mps;
+    oleo->rubs = oleo->seal_N > 0 || oleo->seal_coefficient > 0 || oleo->bearing > 0;
+}
+
+/// Pressure p at which the gas fills room + compliance (p - P_0), from the incompressible one.
+/// The residual is increasing and concave in p, so that Newton's method converges from below.
+static double soften(const bt_oleo* o, const bt_gas_stage* stage, double room, double stiff) {
+    const double n = o->exponent, kappa = o->oil_compliance;
+    const double least = stiff < o->precharge ? stiff : stage->pressure;
+    double p = stiff;
+    for (int i = 0; i < 60; ++i) {
+        const double gas = stage->constant * pow(p, -1 / n);
+        const double residual = room + kappa * (p - o->precharge) - gas;
+        double next = p - residual / (kappa + gas / (n * p));
+        if (next < least)
+            next = least;
+        if (fabs(next - p) <= 1e-15 * p)
+            return next;
+        p = next;
+    }
+    return p;
+}
+
+double bt_oleo_gas_pressure(const bt_oleo* oleo, double stroke_m) {
+    const bt_gas_stage* stage = &oleo->stage[stroke_m > oleo->second_stroke];
+    const double room = stage->volume - oleo->air_area * stroke_m;
+    if (!(room > 0))
+        return INFINITY;
+    const double p = pow(stage->constant / room, oleo->exponent);
+    return oleo->oil_compliance > 0 ? soften(oleo, stage, room, p) : p;
+}
+
+double bt_oleo_gas_force(const bt_oleo* oleo, double stroke_m) {
+    return oleo->air_area * (bt_oleo_gas_pressure(oleo, stroke_m) - oleo->ambient);
+}
+
+double bt_oleo_gas_energy(const bt_oleo* oleo, double stroke_m) {
+    const bt_gas_stage* stage = &oleo->stage[stroke_m > oleo->second_stroke];
+    const double p = bt_oleo_gas_pressure(oleo, stroke_m), p0 = oleo->precharge;
+    return stage->energy + gas_work(stage->constant, oleo->exponent, stage->pressure, p) +
+           0.5 * oleo->oil_compliance * (p - p0) * (p + p0) -
+           oleo->ambient * oleo->air_area * stroke_m;
+}
+
+double bt_oleo_orifice_area(const bt_oleo* oleo, double stroke_m) {
+    return bt_curve_value(&oleo->orifice, stroke_m);
+}
+
+double bt_oleo_oil_force(const bt_oleo* oleo, double stroke_m, double rate_mps) {
+    double area = bt_curve_value(&oleo->orifice, stroke_m);
+    double side = oleo->side_compression;
+    if (rate_mps < 0) {
+        area = oleo->rebound_area > 0 ? oleo->rebound_area : oleo->rebound_ratio * area;
+        side = oleo->side_extension;
+    }
+    return (oleo->main_constant / (area * area) + side) * rate_mps * fabs(rate_mps);
+}
+
+double bt_oleo_limit_force(const bt_oleo* oleo, double stroke_m, double rate_mps) {
+    const double k = oleo->stop_stiffness, c = oleo->stop_damping;
+    if (stroke_m < 0)
+        return fmin(k * stroke_m + c * rate_mps, 0);
+    if (stroke_m > oleo->stroke_max)
+        return fmax(k * (stroke_m - oleo->stroke_max) + c * rate_mps, 0);
+    return 0;
+}
+
+double bt_oleo_friction_force(const bt_oleo* oleo, double stroke_m, double rate_mps,
+                              double gas_force_N, double oil_force_N) {
+    if (!oleo->rubs)
+        return 0;
+    const double lever = fmax(oleo->axle_distance - stroke_m, 0);
+    const double overlap = oleo->bearing_distance + fmax(stroke_m, 0);
+    const double bearings = oleo->bearing * fabs(gas_force_N + oil_force_N);
+    const double seals = oleo->seal_N + oleo->seal_coefficient * fabs(gas_force_N);
+    return (seals + bearings * (2 * lever / overlap + 1)) *
+           bt_friction_factor(rate_mps, oleo->friction_speed);
+}
+
+double bt_oleo_force(const bt_oleo* oleo, double stroke_m, double rate_mps) {
+    const double gas = bt_oleo_gas_force(oleo, stroke_m);
+    const double oil = bt_oleo_oil_force(oleo, stroke_m, rate_mps);
+    const double limit = bt_oleo_limit_force(oleo, stroke_m, rate_mps);
+    return gas + oil + limit + bt_oleo_friction_force(oleo, stroke_m, rate_mps, gas, oil);
+}
+
+double bt_oleo_energy(const bt_oleo* oleo, double stroke_m) {
+    const double beyond = stroke_m < 0 ? stroke_m : fmax(stroke_m - oleo->stroke_max, 0);
+    return bt_oleo_gas_energy(oleo, stroke_m) + 0.5 * oleo->stop_stiffness * beyond * beyond;
+}

@@ -1,0 +1,441 @@
+#include "elements/tyre.h"
+
+#include <math.h>
+
+const char* const bt_tyre_law_names[] = {"smiley_horne", "points", "power", NULL};
+
+/// Cornering constants of NASA TR R-64, type VII, over x = deflection / diameter.
+static const double cornering_break = 0.0875;
+
+static void check_points(const bt_tyre_params* p, const char* path, bt_diag* diag) {
+    const bt_table* t = &p->load_points;
+    const char* fault = bt_curve_fault(t, 1);
+    if (!fault && t->x[0] <= 0)
+        fault = "begins at 0; the point (0, 0) is implied";
+    if (!fault && t->count == BT_LIST_MAX + 1)
+        fault = "has too many rows";
+    for (int i = 1; !fault && i < t->count; ++i)
+        if (t->y[i] < t->y[i - 1])
+            fault = "decreases; the load must grow with the deflection";
+    if (fault)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "%s.load_points: %s", path, fault);
+}
+
+static void check_tyre(const void* params, const char* path, bt_diag* diag) {
+    const bt_tyre_params* p = params;
+    if (p->law == BT_TYRE_POINTS)
+        check_points(p, path, diag);
+    if (p->bottoming_deflection_m >= p->radius_m)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s.bottoming_deflection: %g m is not below the radius", path,
+                    p->bottoming_deflection_m);
+    if (p->locked_friction > p->friction)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s.locked_friction: %g is above the peak `friction` of %g", path,
+                    p->locked_friction, p->friction);
+}
+
+// clang-format off
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_tyre_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(tyre, BT_TYRE_FIELDS, ROW, check_tyre, "tyres of one axle")
+// clang-format on
+
+static void prepare_points(const bt_table* table, bt_curve* curve) {
+    double x[BT_CURVE_MAX] = {0}, y[BT_CURVE_MAX] = {0};
+    for (int i = 0; i < table->count; ++i) {
+        x[i + 1] = table->x[i];
+        y[i + 1] = table->y[i];
+    }
+    bt_curve_make(curve, BT_CURVE_SMOOTH, table->count + 1, x, y);
+}
+
+void bt_tyre_prepare(const bt_tyre_params* params, bt_tyre* tyre) {
+    const bt_tyre_params* p = params;
+    const double w = p->width_m, diameter = 2 * p->radius_m;
+    *tyre = (bt_tyre){
+        .radius = p->radius_m,
+        .width = w,
+        .tyres = (double)p->tyres,
+        .damping = p->damping_Npmps,
+        .law = p->law,
+        .scale = (p->pressure_Pa + 0.08 * p->rated_pressure_Pa) * w * sqrt(w * diameter),
+        .cz = p->vertical_constant,
+        .power_scale = p->power_load_N * pow(p->power_deflection_m, -p->power_exponent),
+        .power = p->power_exponent,
+        .bottoming = p->bottoming_deflection_m > 0 ? p->bottoming_deflection_m : INFINITY,
+        .rim_stiffness = p->rim_stiffness_Npm,
+        .cornering = p->cornering_stiffness_Nprad,
+        .cornering_scale = 57 * (p->pressure_Pa + 0.44 * p->rated_pressure_Pa) * w * w,
+        .friction = p->friction,
+        .locked_friction = p->locked_friction,
+        .peak_slip = p->peak_slip,
+        .slip_speed = p->slip_speed_mps,
+        .strips = BT_TYRE_STRIPS,
+    };
+    if (p->law == BT_TYRE_POINTS)
+        prepare_points(&p->load_points, &tyre->points);
+}
+
+/// f of NASA TR R-64 over x = d / w, and its integral.
+static double smiley_horne(double x, double cz) {
+    return x < 10 * cz / 3 ? x * (0.96 + 0.216 / cz * x) : 2.4 * (x - cz);
+}
+
+static double smiley_horne_integral(double x, double cz) {
+    const double limit = 10 * cz / 3;
+    if (x < limit)
+        return x * x * (0.48 + 0.072 / cz * x);
+    return limit * limit * (0.48 + 0.072 / cz * limit) +
+           1.2 * ((x - cz) * (x - cz) - (limit - cz) * (limit - cz));
+}
+
+/// Load of one tyre; the last slope of a measured curve goes on beyond its end.
+static double one_load(const bt_tyre* t, double d) {
+    if (t->law == BT_TYRE_SMILEY_HORNE)
+        return t->scale * smiley_horne(d / t->width, t->cz);
+    if (t->law == BT_TYRE_POWER)
+        return t->power_scale * pow(d, t->power);
+    const bt_curve* c = &t->points;
+    const int last = c->count - 1;
+    if (d < c->x[last])
+        return bt_curve_value(c, d);
+    return c->y[last] + c->slope[last] * (d - c->x[last]);
+}
+
+static double one_energy(const bt_tyre* t, double d) {
+    if (t->law == BT_TYRE_SMILEY_HORNE)
+        return t->scale * t->width * smiley_horne_integral(d / t->width, t->cz);
+    if (t->law == BT_TYRE_POWER)
+        return t->power_scale * pow(d, t->power + 1) / (t->power + 1);
+    const bt_curve* c = &t->points;
+    const int last = c->count - 1;
+    const double beyond = d - c->x[last];
+    if (beyond < 0)
+        return bt_curve_integral(c, d);
+    return c->before[last] + beyond * (c->y[last] + 0.5 * c->slope[last] * beyond);
+}
+
+double bt_tyre_load(const bt_tyre* tyre, double deflection_m) {
+    if (!(deflection_m > 0))
+        return 0;
+    const double rim = fmax(deflection_m - tyre->bottoming, 0);
+    return tyre->tyres * one_load(tyre, deflection_m) + tyre->rim_stiffness * rim;
+}
+
+double bt_tyre_energy(const bt_tyre* tyre, double deflection_m) {
+    if (!(deflection_m > 0))
+        return 0;
+    const double rim = fmax(deflection_m - tyre->bottoming, 0);
+    return tyre->tyres * one_energy(tyre, deflection_m) + 0.5 * tyre->rim_stiffness * rim * rim;
+}
+
+double bt_tyre_normal_force(const bt_tyre* tyre, double deflection_m, double rate_mps) {
+    if (!(deflection_m > 0))
+        return 0;
+    return fmax(bt_tyre_load(tyre, deflection_m) + tyre->damping * rate_mps, 0);
+}
+
+/* Longitudinal and lateral force. */
+
+double bt_tyre_slip_friction(const bt_tyre* tyre, double slip) {
+    const double k = fabs(slip);
+    double mu = tyre->locked_friction;
+    if (k < tyre->peak_slip) {
+        const double x = k / tyre->peak_slip;
+        mu = tyre->friction * 0.5 * x * (3 - x * x);
+    } else if (k < 1) {
+        const double t = (k - tyre->peak_slip) / (1 - tyre->peak_slip);
+        mu += (tyre->friction - tyre->locked_friction) * (1 - t * t * (3 - 2 * t));
+    }
+    return copysign(mu, slip);
+}
+
+double bt_tyre_slip(const bt_tyre* tyre, double forward_mps, double rolling_mps) {
+    const double v = tyre->slip_speed;
+    return (forward_mps - rolling_mps) / sqrt(forward_mps * forward_mps + v * v);
+}
+
+double bt_tyre_cornering(const bt_tyre* tyre, double deflection_m) {
+    if (tyre->cornering > 0)
+        return tyre->cornering;
+    const double x = fmax(deflection_m, 0) / (2 * tyre->radius);
+    const double f = x <= cornering_break ? 1.2 * x - 8.8 * x * x : 0.0674 - 0.34 * x;
+    return tyre->tyres * tyre->cornering_scale * fmax(f, 0);
+}
+
+double bt_tyre_lateral_force(const bt_tyre* tyre, double normal_N, double deflection_m,
+                             double slip_angle_rad) {
+    const double most = tyre->friction * normal_N;
+    if (!(most > 0))
+        return 0;
+    const double phi = bt_tyre_cornering(tyre, deflection_m) * fabs(slip_angle_rad) / most;
+    const double share = phi < 1.5 ? phi * (1 - 4.0 / 27 * phi * phi) : 1;
+    return copysign(most * share, slip_angle_rad);
+}
+
+void bt_tyre_ground_force(const bt_tyre* tyre, double normal_N, double deflection_m,
+                          double forward_mps, double lateral_mps, double rolling_mps,
+                          double force[2]) {
+    const double v = tyre->slip_speed;
+    const double angle = atan(lateral_mps / sqrt(forward_mps * forward_mps + v * v));
+    const double slip = bt_tyre_slip(tyre, forward_mps, rolling_mps);
+    force[0] = -bt_tyre_slip_friction(tyre, slip) * normal_N;
+    force[1] = -bt_tyre_lateral_force(tyre, normal_N, deflection_m, angle);
+    const double square = force[0] * force[0] + force[1] * force[1];
+    const double most = tyre->friction * normal_N;
+    if (square > most * most) {
+        const double scale = most / sqrt(square);
+        force[0] *= scale;
+        force[1] *= scale;
+    }
+}
+
+double bt_tyre_rolling_radius(const bt_tyre* tyre, double deflection_m) {
+    return tyre->radius - fmax(deflection_m, 0) / 3;
+}
+
+/* Enveloping contact. */
+
+double bt_tyre_segment_area(double radius_m, double deflection_m) {
+    if (!(deflection_m > 0))
+        return 0;
+    // Half the angle that the chord subtends; exact also for small deflections.
+    const double half = 2 * asin(sqrt(fmin(deflection_m / (2 * radius_m), 1)));
+    return radius_m * radius_m * (half - 0.5 * sin(2 * half));
+}
+
+double bt_tyre_equivalent_deflection(double radius_m, double area_m2) {
+    const double pi = acos(-1.0), a = area_m2 / (radius_m * radius_m);
+    if (!(a > 0))
+        return 0;
+    if (a >= pi)
+        return 2 * radius_m;
+    // a = t - sin t cos t; the start is the root of its series, from where Newton converges.
+    double t = fmin(cbrt(1.5 * a), pi - 1e-3);
+    for (int i = 0; i < 30; ++i) {
+        const double s = sin(t);
+        const double step = (t - s * cos(t) - a) / (2 * s * s);
+        t = fmin(fmax(t - step, 0.5 * t), 0.5 * (t + pi));
+        if (fabs(step) <= 4e-16 * t)
+            break;
+    }
+    const double s = sin(0.5 * t);
+    return 2 * radius_m * s * s;
+}
+
+/// The ground as seen from the axle: what the rays run into.
+typedef struct ground {
+    double radius, height; ///< of the disc; of the axle above the deck
+    const bt_bump* bumps;
+    int count;
+} ground;
+
+/// Sums over the strips of one share: area, first moments, area-weighted direction.
+typedef struct sums {
+    double area, moment_u, moment_w, area_g_u, area_g_w;
+} sums;
+
+/// Where the ray of direction (s, -c) meets something.
+typedef struct hit {
+    double distance;
+    double g_u, g_w; ///< inward direction there
+} hit;
+
+static void nearer(hit* best, double distance, double g_u, double g_w) {
+    if (distance < best->distance)
+        *best = (hit){distance, g_u, g_w};
+}
+
+static void hit_circle(const bt_bump* b, double s, double c, hit* best) {
+    const double along = b->u_m * s - b->w_m * c;
+    const double across = b->u_m * c + b->w_m * s;
+    const double square = b->size_m * b->size_m - across * across;
+    if (square < 0 || along <= 0)
+        return;
+    const double rho = fmax(along - sqrt(square), 0);
+    nearer(best, rho, (rho * s - b->u_m) / b->size_m, (-rho * c - b->w_m) / b->size_m);
+}
+
+/// A block on the deck: its top, and the upright face that looks at the axle.
+static void hit_step(const bt_bump* b, double height, double s, double c, hit* best) {
+    const double top = height - b->size_m;
+    const double u = top * s / c;
+    if (u >= b->u_m && u <= b->w_m)
+        nearer(best, top / c, 0, 1);
+    const double face = b->u_m > 0 ? b->u_m : b->w_m < 0 ? b->w_m : 0;
+    if (face * s <= 0)
+        return;
+    const double rho = face / s;
+    if (rho * c >= top && rho * c <= height)
+        nearer(best, rho, face > 0 ? -1 : 1, 0);
+}
+
+/// The nearest thing along a ray; *what is -1 for the deck or the bump's index.
+static hit cast(const ground* g, double s, double c, int* what) {
+    hit best = {c > 0 ? g->height / c : INFINITY, 0, 1};
+    *what = -1;
+    for (int i = 0; i < g->count; ++i) {
+        const double before = best.distance;
+        if (g->bumps[i].kind == BT_BUMP_CIRCLE)
+            hit_circle(&g->bumps[i], s, c, &best);
+        else
+            hit_step(&g->bumps[i], g->height, s, c, &best);
+        if (best.distance < before)
+            *what = i;
+    }
+    return best;
+}
+
+/// All strips between two angles that a level floor bounds, in closed form.
+static void add_floor(sums* sum, double radius, double height, double t0, double t1) {
+    const double r3 = radius * radius * radius, h3 = height * height * height;
+    const double c0 = cos(t0), c1 = cos(t1), s0 = sin(t0), s1 = sin(t1);
+    const double tangents = s1 / c1 - s0 / c0;
+    const double area = 0.5 * (radius * radius * (t1 - t0) - height * height * tangents);
+    sum->area += area;
+    sum->area_g_w += area;
+    sum->moment_u += (r3 * (c0 - c1) - 0.5 * h3 * (1 / (c1 * c1) - 1 / (c0 * c0))) / 3;
+    sum->moment_w -= (r3 * (s1 - s0) - h3 * tangents) / 3;
+}
+
+/// Narrow strips between two angles, each given to what bounds it at its middle.
+static void add_strips(const ground* g, sums* share, int strips, double t0, double t1) {
+    const double width = (t1 - t0) / strips, r = g->radius;
+    const double turn_s = sin(width), turn_c = cos(width);
+    double s = sin(t0 + 0.5 * width), c = cos(t0 + 0.5 * width);
+    for (int i = 0; i < strips; ++i) {
+        int what;
+        const hit h = cast(g, s, c, &what);
+        if (h.distance < r) {
+            sums* sum = &share[what + 1];
+            const double rho = h.distance;
+            const double area = 0.5 * (r * r - rho * rho) * width;
+            const double moment = (r * r * r - rho * rho * rho) * width / 3;
+            sum->area += area;
+            sum->moment_u += moment * s;
+            sum->moment_w -= moment * c;
+            sum->area_g_u += area * h.g_u;
+            sum->area_g_w += area * h.g_w;
+        }
+        const double turned = s * turn_c + c * turn_s;
+        c = c * turn_c - s * turn_s;
+        s = turned;
+    }
+}
+
+enum { ANGLE_MAX = 3 + 10 * BT_BUMP_MAX };
+
+typedef struct angles {
+    int count;
+    double value[ANGLE_MAX];
+} angles;
+
+static void add_angle(angles* list, double u, double depth) {
+    if (depth > 0)
+        list->value[list->count++] = atan2(u, depth);
+}
+
+/// The points of the disc's rim where a level floor cuts it.
+static void add_floor_angles(angles* list, double radius, double height) {
+    if (!(height < radius) || height <= 0)
+        return;
+    const double half = acos(height / radius);
+    list->value[list->count++] = -half;
+    list->value[list->count++] = half;
+}
+
+/// Where a circle comes into sight, leaves the disc, and sinks into the deck.
+static void add_circle_angles(angles* list, const ground* g, const bt_bump* b) {
+    const double r = b->size_m, big = g->radius, pi_2 = acos(0.0);
+    const double d = sqrt(b->u_m * b->u_m + b->w_m * b->w_m);
+    if (d >= big + r || d <= r)
+        return;
+    const double middle = atan2(b->u_m, -b->w_m);
+    const double half =
+        d * d - r * r > big * big ? acos((d * d + big * big - r * r) / (2 * d * big)) : asin(r / d);
+    list->value[list->count++] = fmin(fmax(middle - half, -pi_2), pi_2);
+    list->value[list->count++] = fmin(fmax(middle + half, -pi_2), pi_2);
+    const double above = b->w_m + g->height;
+    if (fabs(above) < r) {
+        const double chord = sqrt(r * r - above * above);
+        add_angle(list, b->u_m - chord, g->height);
+        add_angle(list, b->u_m + chord, g->height);
+    }
+}
+
+static void add_step_angles(angles* list, const ground* g, const bt_bump* b) {
+    const double top = g->height - b->size_m, big = g->radius;
+    add_floor_angles(list, big, top);
+    for (int i = 0; i < 2; ++i) {
+        const double u = i == 0 ? b->u_m : b->w_m;
+        add_angle(list, u, top);
+        add_angle(list, u, g->height);
+        if (fabs(u) < big)
+            list->value[list->count++] = asin(u / big);
+    }
+}
+
+static void sort(angles* list) {
+    for (int i = 1; i < list->count; ++i) {
+        const double value = list->value[i];
+        int j = i;
+        for (; j > 0 && list->value[j - 1] > value; --j)
+            list->value[j] = list->value[j - 1];
+        list->value[j] = value;
+    }
+}
+
+/// Cuts the disc at every angle where what bounds it changes, and adds piece by piece.
+static void add_pieces(const bt_tyre* tyre, const ground* g, sums* share) {
+    angles list = {0};
+    add_floor_angles(&list, g->radius, g->height);
+    for (int i = 0; i < g->count; ++i)
+        if (g->bumps[i].kind == BT_BUMP_CIRCLE)
+            add_circle_angles(&list, g, &g->bumps[i]);
+        else
+            add_step_angles(&list, g, &g->bumps[i]);
+    sort(&list);
+    for (int i = 0; i + 1 < list.count; ++i) {
+        const double t0 = list.value[i], t1 = list.value[i + 1];
+        if (!(t1 > t0))
+            continue;
+        int what;
+        const double middle = 0.5 * (t0 + t1);
+        const hit h = cast(g, sin(middle), cos(middle), &what);
+        if (!(h.distance < g->radius))
+            continue;
+        if (what < 0)
+            add_floor(&share[0], g->radius, g->height, t0, t1);
+        else
+            add_strips(g, share, tyre->strips, t0, t1);
+    }
+}
+
+/// Eqs. 6 and 7 of one share.
+static bt_patch patch_of(const sums* sum) {
+    if (!(sum->area > 0))
+        return (bt_patch){0};
+    return (bt_patch){sum->area, sum->moment_u / sum->area, sum->moment_w / sum->area,
+                      sum->area_g_u / sum->area, sum->area_g_w / sum->area};
+}
+
+void bt_tyre_envelope(const bt_tyre* tyre, double wheel_height_m, const bt_bump* bumps, int n,
+                      bt_envelope* out) {
+    const double radius = tyre->radius;
+    const ground g = {radius, fmax(wheel_height_m, 0.05 * radius), bumps, n};
+    sums share[BT_BUMP_MAX + 1] = {{0}}, all = {0};
+    add_pieces(tyre, &g, share);
+    for (int i = 0; i <= n; ++i) {
+        all.area += share[i].area;
+        all.moment_u += share[i].moment_u;
+        all.moment_w += share[i].moment_w;
+        all.area_g_u += share[i].area_g_u;
+        all.area_g_w += share[i].area_g_w;
+    }
+    *out = (bt_envelope){.all = patch_of(&all), .ground = patch_of(&share[0])};
+    for (int i = 0; i < n; ++i)
+        out->bump[i] = patch_of(&share[i + 1]);
+    // A flat deck needs no inversion.
+    out->deflection_m = all.area > share[0].area ? bt_tyre_equivalent_deflection(radius, all.area)
+                                                 : fmax(radius - g.height, 0);
+}
