@@ -1,20 +1,21 @@
 #include "elements/hook_damper.h"
 
+#include "elements/check.h"
+
 #include <math.h>
 
 static void check_hook_damper(const void* params, const char* path, bt_diag* diag) {
     const bt_hook_damper_params* p = params;
     const double swept = p->air_area_m2 * p->stroke_max_m;
     if (p->precharge_Pa < p->ambient_Pa)
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s.precharge: %g Pa is below the ambient pressure of %g Pa; the precharge is "
-                    "absolute",
-                    path, p->precharge_Pa, p->ambient_Pa);
+        bt_key_error(diag, path, "precharge",
+                     "%g Pa is below the ambient pressure of %g Pa; the precharge is absolute",
+                     p->precharge_Pa, p->ambient_Pa);
     if (p->air_volume_m3 <= swept)
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s.air_volume: the gas volume of %g m^3 is not above the swept volume "
-                    "air_area x stroke_max = %g m^3",
-                    path, p->air_volume_m3, swept);
+        bt_key_error(
+            diag, path, "air_volume",
+            "the gas volume of %g m^3 is not above the swept volume air_area x stroke_max = %g m^3",
+            p->air_volume_m3, swept);
 }
 
 // clang-format off
@@ -41,7 +42,7 @@ void bt_hook_damper_prepare(const bt_hook_damper_params* params, bt_hook_damper*
             quadratic_damping(p, p->rebound_area_m2 > 0 ? p->rebound_area_m2 : p->orifice_area_m2),
         .stroke_max = p->stroke_max_m,
         .stop_stiffness = p->stop_stiffness_Npm,
-        .stop_damping = p->stop_damping_Npmps,
+        .stop_damping = p->stop_damping_Nspm,
     };
 }
 

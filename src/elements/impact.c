@@ -1,5 +1,6 @@
 #include "elements/impact.h"
 
+#include "elements/check.h"
 #include "elements/friction.h"
 
 #include <math.h>
@@ -25,8 +26,7 @@ static void check_impact(const void* params, const char* path, bt_diag* diag) {
     bt_hertz hertz;
     if (p->stiffness_from == BT_STIFFNESS_BODIES &&
         bt_hertz_contact(&first, &second, p->crossing_angle_rad, &hertz) != BT_OK)
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s.first_radius: bodies with these radii do not touch in a point", path);
+        bt_key_error(diag, path, "first_radius", "bodies with these radii do not touch in a point");
 }
 
 // clang-format off
@@ -158,7 +158,7 @@ void bt_impact_prepare(const bt_impact_params* params, bt_impact* impact) {
     const bt_impact_params* p = params;
     const bt_hertz_body first = first_body(p), second = second_body(p);
     bt_hertz hertz;
-    impact->stiffness = p->stiffness_Npm1p5;
+    impact->stiffness = p->stiffness_Npm15;
     if (p->stiffness_from == BT_STIFFNESS_BODIES &&
         bt_hertz_contact(&first, &second, p->crossing_angle_rad, &hertz) == BT_OK)
         impact->stiffness = hertz.stiffness;

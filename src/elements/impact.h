@@ -24,7 +24,7 @@ enum {
 // clang-format off
 #define BT_IMPACT_FIELDS(F)                                                                        \
     F(CHOICE, stiffness_from, bt_stiffness_from_names, OPTIONAL, 0, 0, 0, "Eq. 10", "given: `stiffness` holds; bodies: K from moduli and radii") \
-    F(REAL, stiffness, Npm1p5, OPTIONAL, 2.63e9, 1, 1e15, "Eq. 10", "K of F = K delta^1.5 [calibrated]") \
+    F(REAL, stiffness, Npm15, OPTIONAL, 2.63e9, 1, 1e15, "Eq. 10", "K of F = K delta^1.5 [calibrated]") \
     F(REAL, first_modulus, Pa, OPTIONAL, 2.1e11, 1e3, 1e13, "Eq. 10", "E_1: Young's modulus of the first body (hook)") \
     F(PLAIN, first_poisson, _, OPTIONAL, 0.3, 0, 0.5, "Eq. 10", "nu_1: its Poisson ratio") \
     F(REAL, first_radius, m, OPTIONAL, 0.08, -1e3, 1e3, "Eq. 10", "R_1: a principal radius of its surface; 0: flat, negative: hollow [assumed]") \

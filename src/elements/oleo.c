@@ -1,5 +1,6 @@
 #include "elements/oleo.h"
 
+#include "elements/check.h"
 #include "elements/friction.h"
 
 #include <math.h>
@@ -11,44 +12,38 @@ static void check_gas(const bt_oleo_params* p, const char* path, bt_diag* diag) 
     const bool two = p->high_precharge_Pa > 0 || p->high_volume_m3 > 0;
     const double volume = p->air_volume_m3 + (two ? p->high_volume_m3 : 0);
     if (p->precharge_Pa < p->ambient_Pa)
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s.precharge: %g Pa is below the ambient pressure of %g Pa; the precharge is "
-                    "absolute",
-                    path, p->precharge_Pa, p->ambient_Pa);
+        bt_key_error(diag, path, "precharge",
+                     "%g Pa is below the ambient pressure of %g Pa; the precharge is absolute",
+                     p->precharge_Pa, p->ambient_Pa);
     if (volume <= swept)
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s.air_volume: the gas volume of %g m^3 is not above the swept volume "
-                    "air_area x stroke_max = %g m^3",
-                    path, volume, swept);
+        bt_key_error(
+            diag, path, "air_volume",
+            "the gas volume of %g m^3 is not above the swept volume air_area x stroke_max = %g m^3",
+            volume, swept);
     if (!two)
         return;
     if (p->high_volume_m3 <= 0)
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s.high_volume: needed where high_precharge is given", path);
+        bt_key_error(diag, path, "high_volume", "needed where high_precharge is given");
     if (p->high_precharge_Pa <= p->precharge_Pa)
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s.high_precharge: %g Pa is not above the precharge of %g Pa", path,
-                    p->high_precharge_Pa, p->precharge_Pa);
+        bt_key_error(diag, path, "high_precharge", "%g Pa is not above the precharge of %g Pa",
+                     p->high_precharge_Pa, p->precharge_Pa);
 }
 
 static void check_orifices(const bt_oleo_params* p, const char* path, bt_diag* diag) {
     if (p->orifice_table.count > 0) {
         const char* fault = bt_curve_fault(&p->orifice_table, 2);
         if (fault)
-            bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "%s.orifice_table: %s", path, fault);
+            bt_key_error(diag, path, "orifice_table", "%s", fault);
         if (p->orifice_area_m2 > 0)
-            bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                        "%s.orifice_area: orifice_table is given too; give one of them", path);
+            bt_key_error(diag, path, "orifice_area",
+                         "orifice_table is given too; give one of them");
     } else if (p->orifice_area_m2 <= 0) {
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s.orifice_area: needed where orifice_table is not given", path);
+        bt_key_error(diag, path, "orifice_area", "needed where orifice_table is not given");
     }
     if (p->side_area_m2 > 0 &&
         (p->side_orifice_compression_m2 <= 0 || p->side_orifice_extension_m2 <= 0))
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s.side_area: needs side_orifice_compression and side_orifice_extension "
-                    "above 0",
-                    path);
+        bt_key_error(diag, path, "side_area",
+                     "needs side_orifice_compression and side_orifice_extension above 0");
 }
 
 static void check_oleo(const void* params, const char* path, bt_diag* diag) {
@@ -57,10 +52,9 @@ static void check_oleo(const void* params, const char* path, bt_diag* diag) {
     check_orifices(p, path, diag);
     if (p->bearing_coefficient > 0 && p->side_load_ratio > 0 &&
         p->axle_distance_m <= p->stroke_max_m)
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s.axle_distance: %g m is not above stroke_max, so that the axle would pass "
-                    "the lower bearing",
-                    path, p->axle_distance_m);
+        bt_key_error(diag, path, "axle_distance",
+                     "%g m is not above stroke_max, so that the axle would pass the lower bearing",
+                     p->axle_distance_m);
 }
 
 // clang-format off
@@ -124,7 +118,7 @@ void bt_oleo_prepare(const bt_oleo_params* params, bt_oleo* oleo) {
     prepare_oil(p, oleo);
     oleo->stroke_max = p->stroke_max_m;
     oleo->stop_stiffness = p->stop_stiffness_Npm;
-    oleo->stop_damping = p->stop_damping_Npmps;
+    oleo->stop_damping = p->stop_damping_Nspm;
     oleo->seal_N = p->seal_friction_N;
     oleo->seal_coefficient = p->seal_coefficient;
     oleo->bearing = p->bearing_coefficient * p->side_load_ratio;

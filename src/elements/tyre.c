@@ -1,5 +1,7 @@
 #include "elements/tyre.h"
 
+#include "elements/check.h"
+
 #include <math.h>
 
 const char* const bt_tyre_law_names[] = {"smiley_horne", "points", "power", NULL};
@@ -18,7 +20,7 @@ static void check_points(const bt_tyre_params* p, const char* path, bt_diag* dia
         if (t->y[i] < t->y[i - 1])
             fault = "decreases; the load must grow with the deflection";
     if (fault)
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "%s.load_points: %s", path, fault);
+        bt_key_error(diag, path, "load_points", "%s", fault);
 }
 
 static void check_tyre(const void* params, const char* path, bt_diag* diag) {
@@ -26,13 +28,11 @@ static void check_tyre(const void* params, const char* path, bt_diag* diag) {
     if (p->law == BT_TYRE_POINTS)
         check_points(p, path, diag);
     if (p->bottoming_deflection_m >= p->radius_m)
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s.bottoming_deflection: %g m is not below the radius", path,
-                    p->bottoming_deflection_m);
+        bt_key_error(diag, path, "bottoming_deflection", "%g m is not below the radius",
+                     p->bottoming_deflection_m);
     if (p->locked_friction > p->friction)
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s.locked_friction: %g is above the peak `friction` of %g", path,
-                    p->locked_friction, p->friction);
+        bt_key_error(diag, path, "locked_friction", "%g is above the peak `friction` of %g",
+                     p->locked_friction, p->friction);
 }
 
 // clang-format off
@@ -56,7 +56,7 @@ void bt_tyre_prepare(const bt_tyre_params* params, bt_tyre* tyre) {
         .radius = p->radius_m,
         .width = w,
         .tyres = (double)p->tyres,
-        .damping = p->damping_Npmps,
+        .damping = p->damping_Nspm,
         .law = p->law,
         .scale = (p->pressure_Pa + 0.08 * p->rated_pressure_Pa) * w * sqrt(w * diameter),
         .cz = p->vertical_constant,
