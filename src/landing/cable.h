@@ -68,4 +68,191 @@ BT_DECLARE_GROUP(cable_sheaves, BT_CABLE_SHEAVES_FIELDS)
 BT_DECLARE_GROUP(cable, BT_CABLE_FIELDS)
 // clang-format on
 
+/// What holds an end of the rope.
+typedef enum bt_cable_end_kind {
+    BT_CABLE_FREE,
+    BT_CABLE_PINNED,  ///< held at the anchor by half a joint without bending
+    BT_CABLE_CLAMPED, ///< held at the anchor by half a joint, along y
+    BT_CABLE_SHEAVE,  ///< held across the rope at the anchor; along it the purchase cable pulls
+} bt_cable_end_kind;
+
+typedef struct bt_cable_end {
+    bt_cable_end_kind kind;
+    double anchor_m[3]; ///< where the end starts and is held; both ends at the same x
+    double pretension_N, purchase_stiffness_Npm, purchase_damping_Npmps; ///< sheave only
+} bt_cable_end;
+
+/// Instruction-set level of the kernel. BT_KERNEL_BEST: the fastest this machine has.
+typedef enum bt_kernel_level {
+    BT_KERNEL_BEST,
+    BT_KERNEL_V1,
+    BT_KERNEL_V3,
+    BT_KERNEL_V4
+} bt_kernel_level;
+
+/// A rope in general: the arresting cable is one, the verification cases are others.
+typedef struct bt_cable_def {
+    int count;              ///< segments, at least 2
+    const double* length_m; ///< [count] unstretched; read during creation only
+    double diameter_m, mass_kgpm;
+    double axial_stiffness_N, bending_stiffness_Nm2, twist_stiffness_Nm2; ///< K0
+    double axial_damping_Ns, bending_damping_Nm2s, twist_damping_Nm2s;    ///< C0
+    double shear_ratio, compression_ratio;
+    double gravity_mps2;
+    bt_cable_end end[2]; ///< at segment 0 and at segment count - 1
+    bool deck;           ///< false: no deck
+    bt_cable_deck_params deck_contact;
+    bt_list support_y_m; ///< y of each wire support
+    bt_cable_supports_params support;
+    bt_kernel_level level;
+} bt_cable_def;
+
+enum {
+    BT_CABLE_SEGMENTS_MAX = 4000,
+    BT_CABLE_LANES = 8, ///< arrays are padded to whole vectors of this many doubles
+};
+
+struct bt_cable_state;
+struct bt_cable_model;
+
+typedef struct bt_cable_kernel {
+    const char* name; ///< "v1", "v3", "v4"
+    void (*joints)(const struct bt_cable_model*, struct bt_cable_state*);
+    void (*resultants)(const struct bt_cable_model*, struct bt_cable_state*);
+    void (*advance)(const struct bt_cable_model*, struct bt_cable_state*, double kick_s,
+                    double drift_s);
+} bt_cable_kernel;
+
+/// Constant after creation. Arrays are 64-byte aligned, [stride], zero beyond their last entry.
+typedef struct bt_cable_model {
+    int count;        ///< segments; joints 1 .. count - 1 lie between segments joint - 1 and joint
+    int padded;       ///< count rounded up to whole vectors
+    int stride;       ///< doubles from one array to the next: not a power of two
+    bt_cable_def def; ///< length_m is NULL
+    double radius_m, contact_damping_Npm2ps;
+    const double* half_m;          ///< half the unstretched length of a segment
+    const double* mass_kg;         ///< of a segment
+    const double* inverse_mass;    ///< 1/kg
+    const double* inverse_tilt;    ///< 1/I_t, 1/(kg m2): about an axis across the segment
+    const double* inverse_spin;    ///< 1/I_a - 1/I_t
+    const double* inverse_slide;   ///< 1/kg: what friction at the underside must move
+    const double* inverse_spacing; ///< [joint] 1/m: one over the mean of two lengths; 0 at the ends
+    const double* rest_y_m;        ///< centres of the segments, straight and at pretension
+    double stable_step_s;          ///< bt_cable_stable_step
+    bt_cable_kernel kernel;
+} bt_cable_model;
+
+/// What changes. Positions and axes are at the time reached; velocities and angular momenta half a
+/// step before it (leapfrog). Every pointer points into `block`; copy with bt_cable_state_copy.
+typedef struct bt_cable_state {
+    double *x, *y, *z;         ///< centre, m
+    double *e0, *e1, *e2, *e3; ///< Euler parameters; (1, 0, 0, 0) lies along +y
+    double *vx, *vy, *vz;      ///< velocity of the centre, m/s
+    double *hx, *hy, *hz;      ///< angular momentum about the centre, deck frame, kg m2/s
+    double *wx, *wy, *wz;      ///< angular velocity, deck frame, rad/s (follows from h)
+    double *tx, *ty, *tz;      ///< unit axis toward +y (follows from e)
+    double *fx, *fy, *fz;      ///< load on a segment's centre, N: set by the caller, kept
+    double *mx, *my, *mz;      ///< load torque about the centre, N m: likewise
+    double *joint_fx, *joint_fy, *joint_fz; ///< [joint] force on the segment before the joint, N
+    double *before_x, *before_y, *before_z; ///< [joint] torque on the segment before the joint
+    double *after_x, *after_y, *after_z;    ///< [joint] torque on the segment after it
+    double* support_fz;                     ///< force of the wire supports, N
+    double* net[6];                         ///< scratch: resultant force and torque
+    struct bt_cable_scalars {
+        double time_s, last_step_s;
+        double anchor_m[2][3], anchor_velocity_mps[2][3]; ///< the caller may move them
+        double anchor_e[2][4];                            ///< attitude a clamped end is held at
+        double end_tension_N[2];                          ///< purchase tension (sheaves)
+        double support_force_N[BT_LIST_MAX];
+        int support_at[BT_LIST_MAX];
+    } * scalars;
+    double* block;
+    size_t block_size; ///< bytes
+} bt_cable_state;
+
+/// The rope of the arresting cable as a general one. `length_m` receives the unstretched segment
+/// lengths (Eq. 11), at most BT_CABLE_SEGMENTS_MAX; def->length_m points to it.
+/// The parameters must have passed bt_group_check.
+void bt_cable_def_init(bt_cable_def* def, const bt_cable_params* params, double gravity_mps2,
+                       double* length_m);
+
+/// Bytes of arena that a model and `states` states of `count` segments take at most.
+size_t bt_cable_memory(int count, int states);
+
+/// Prepares a model. BT_ERR_INPUT (count, non-finite or non-positive values; said in diag) or
+/// BT_ERR_MEMORY (arena full).
+BT_CHECKED bt_status bt_cable_model_init(bt_cable_model* model, const bt_cable_def* def,
+                                         bt_arena* arena, bt_diag* diag);
+
+/// Takes a state from the arena and places it as bt_cable_place does. BT_ERR_MEMORY.
+BT_CHECKED bt_status bt_cable_state_init(const bt_cable_model* model, bt_cable_state* state,
+                                         bt_arena* arena);
+
+/// Puts every segment at rest on the straight line between the anchors, without loads, time 0.
+/// A rope longer than the line sags as a parabola in the plane x = 0.
+void bt_cable_place(const bt_cable_model* model, bt_cable_state* state);
+
+/// Copies everything; both states belong to the same model.
+void bt_cable_state_copy(const bt_cable_model* model, bt_cable_state* to,
+                         const bt_cable_state* from);
+
+/// Static equilibrium under gravity, supports, deck, ends and the loads in the state, starting from
+/// the state's shape (plane x = 0; a rope whose ends and supports are alike left and right comes
+/// out mirror-symmetric to the bit). With sheaves, anchors are moved along y until the tension at
+/// the sheaves is the pretension. Velocities become zero.
+/// Newton's method on the forces of the stepping kernel itself.
+/// @param residual_N  the largest force left on a segment (torques divided by its length); may be
+///                    NULL
+/// Errors: BT_ERR_NUMERIC, said in diag, when it does not come to rest or hangs clear of a support.
+BT_CHECKED bt_status bt_cable_equilibrium(const bt_cable_model* model, bt_cable_state* state,
+                                          double* residual_N, bt_diag* diag);
+
+/// The largest step for which small motions stay bounded, s: from the spectral radius of joints,
+/// deck contact and dampers, segment by segment. Loads of the caller that depend on position
+/// should stay below the deck's stiffness per metre.
+double bt_cable_stable_step(const bt_cable_model* model);
+
+/// One step: forces at the present positions, velocities by the mean of the last and this step,
+/// positions by this step (leapfrog; second order, also when the step changes).
+/// Loads fx .. mz are the caller's and stay until changed. Allocates nothing, cannot fail:
+/// bt_cable_is_finite tells afterwards.
+void bt_cable_step(const bt_cable_model* model, bt_cable_state* state, double step_s);
+
+/// Sets all loads to zero.
+void bt_cable_clear_loads(const bt_cable_model* model, bt_cable_state* state);
+
+/// Adds a force at a point (deck frame) to the load of one segment, with its torque.
+void bt_cable_add_load(bt_cable_state* state, int segment, const double force_N[3],
+                       const double point_m[3]);
+
+/// True while every position and velocity is finite.
+bool bt_cable_is_finite(const bt_cable_model* model, const bt_cable_state* state);
+
+/// The segment whose piece of rope passes y; -1 beyond the ends. `hint` is where to look first
+/// (an earlier answer, or -1).
+int bt_cable_segment_at(const bt_cable_model* model, const bt_cable_state* state, double y_m,
+                        int hint);
+
+/// Centreline where it passes y: linear between the centres of neighbouring segments, so it is
+/// continuous along y. velocity and direction (unit, toward +y) may be NULL.
+/// Returns the first of the two segments, -1 beyond the outermost centres.
+int bt_cable_centreline(const bt_cable_model* model, const bt_cable_state* state, double y_m,
+                        int hint, double position_m[3], double velocity_mps[3],
+                        double direction[3]);
+
+/// Tension at a joint (0 and count: the ends), N, positive when it pulls. Of the last step.
+double bt_cable_tension(const bt_cable_model* model, const bt_cable_state* state, int joint);
+/// The largest tension of all joints at the last step.
+double bt_cable_tension_max(const bt_cable_model* model, const bt_cable_state* state);
+
+typedef struct bt_cable_energy {
+    double kinetic_J, elastic_J, gravity_J; ///< elastic: joints, ends, supports and deck
+    double momentum_kgmps[3];               ///< linear
+    double angular_momentum_Nms[3];         ///< about the origin of the deck frame
+} bt_cable_energy;
+
+/// Audit at the present time: velocities are advanced from the half step with the present forces.
+/// Changes only scratch and joint outputs of the state.
+void bt_cable_audit(const bt_cable_model* model, bt_cable_state* state, bt_cable_energy* energy);
+
 #endif
