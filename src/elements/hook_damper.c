@@ -42,7 +42,7 @@ void bt_hook_damper_prepare(const bt_hook_damper_params* params, bt_hook_damper*
             quadratic_damping(p, p->rebound_area_m2 > 0 ? p->rebound_area_m2 : p->orifice_area_m2),
         .stroke_max = p->stroke_max_m,
         .stop_stiffness = p->stop_stiffness_Npm,
-        .stop_damping = p->stop_damping_Nspm,
+        .stop_damping = p->stop_damping_Npmps,
     };
 }
 

@@ -21,7 +21,7 @@
     F(REAL, oil_density, kgpm3, OPTIONAL, 860, 100, 3000, "Eq. 9", "rho: density of the oil") \
     F(REAL, stroke_max, m, OPTIONAL, 0.6, 1e-3, 10, "Eq. 5", "full stroke [assumed]") \
     F(REAL, stop_stiffness, Npm, OPTIONAL, 2e7, 0, 1e12, "Eq. 5", "stiffness beyond either end; at s < 0 it is the hook's down stop [calibrated]") \
-    F(REAL, stop_damping, Nspm, OPTIONAL, 0, 0, 1e9, "", "damping beyond either end; a stop never pulls")
+    F(REAL, stop_damping, Npmps, OPTIONAL, 0, 0, 1e9, "", "damping beyond either end; a stop never pulls")
 // clang-format on
 BT_DECLARE_GROUP(hook_damper, BT_HOOK_DAMPER_FIELDS)
 

@@ -118,7 +118,7 @@ void bt_oleo_prepare(const bt_oleo_params* params, bt_oleo* oleo) {
     prepare_oil(p, oleo);
     oleo->stroke_max = p->stroke_max_m;
     oleo->stop_stiffness = p->stop_stiffness_Npm;
-    oleo->stop_damping = p->stop_damping_Nspm;
+    oleo->stop_damping = p->stop_damping_Npmps;
     oleo->seal_N = p->seal_friction_N;
     oleo->seal_coefficient = p->seal_coefficient;
     oleo->bearing = p->bearing_coefficient * p->side_load_ratio;

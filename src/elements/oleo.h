@@ -32,7 +32,7 @@ extern const char* const bt_orifice_law_names[]; ///< in the order of bt_curve_l
     F(PLAIN, side_discharge, _, OPTIONAL, 0.65, 0.05, 2, "Eq. 4", "C_ds: discharge coefficient of the side orifice") \
     F(REAL, stroke_max, m, REQUIRED, 0.6, 1e-3, 10, "Eq. 5", "s_max: full stroke") \
     F(REAL, stop_stiffness, Npm, OPTIONAL, 3e7, 0, 1e12, "Eq. 5", "k_l: stiffness beyond either end of the stroke [assumed]") \
-    F(REAL, stop_damping, Nspm, OPTIONAL, 0, 0, 1e9, "", "damping beyond either end of the stroke; the stop never pulls") \
+    F(REAL, stop_damping, Npmps, OPTIONAL, 0, 0, 1e9, "", "damping beyond either end of the stroke; the stop never pulls") \
     F(REAL, seal_friction, N, OPTIONAL, 0, 0, 1e7, "", "friction of the seals, independent of pressure") \
     F(PLAIN, seal_coefficient, _, OPTIONAL, 0, 0, 1, "", "friction of the seals over the gas force") \
     F(PLAIN, bearing_coefficient, _, OPTIONAL, 0, 0, 1, "", "Coulomb coefficient of the bearings") \

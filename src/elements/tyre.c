@@ -56,7 +56,7 @@ void bt_tyre_prepare(const bt_tyre_params* params, bt_tyre* tyre) {
         .radius = p->radius_m,
         .width = w,
         .tyres = (double)p->tyres,
-        .damping = p->damping_Nspm,
+        .damping = p->damping_Npmps,
         .law = p->law,
         .scale = (p->pressure_Pa + 0.08 * p->rated_pressure_Pa) * w * sqrt(w * diameter),
         .cz = p->vertical_constant,

@@ -21,7 +21,7 @@ enum { BT_TYRE_SMILEY_HORNE, BT_TYRE_POINTS, BT_TYRE_POWER };
     F(REAL, power_deflection, m, OPTIONAL, 0.1, 1e-6, 5, "", "power law: deflection d_0 at power_load [assumed]") \
     F(REAL, power_load, N, OPTIONAL, 1e5, 1e-3, 1e9, "", "power law: F = power_load (d / d_0)^m [assumed]") \
     F(PLAIN, power_exponent, _, OPTIONAL, 1.34, 0.5, 5, "", "power law: m") \
-    F(REAL, damping, Nspm, OPTIONAL, 2000, 0, 1e8, "", "c of f(d) + c d', all tyres of the axle [assumed]") \
+    F(REAL, damping, Npmps, OPTIONAL, 2000, 0, 1e8, "", "c of f(d) + c d', all tyres of the axle [assumed]") \
     F(REAL, bottoming_deflection, m, OPTIONAL, 0, 0, 5, "", "deflection at which the tyre bottoms on its rim; 0: never") \
     F(REAL, rim_stiffness, Npm, OPTIONAL, 2e7, 0, 1e12, "", "stiffness added beyond bottoming_deflection, all tyres [assumed]") \
     F(REAL, cornering_stiffness, Nprad, OPTIONAL, 0, 0, 1e9, "Eq. 8", "C_alpha, all tyres of the axle; 0: from size, pressure and deflection (NASA TR R-64, type VII)") \

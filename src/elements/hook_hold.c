@@ -1,0 +1,70 @@
+#include "elements/hook_hold.h"
+
+#include "mechanics/vec.h"
+
+/// Stroke and its rate; the ends of the damper and its direction from a to b.
+static double stroke(const bt_element* element, const bt_motion* motion, double end_a[3],
+                     double end_b[3], double direction[3], double* rate) {
+    const bt_hook_hold* h = element->data;
+    double velocity_a[3], velocity_b[3];
+    bt_point_position(motion, element->body_a, h->point_a_m, end_a);
+    bt_point_position(motion, element->body_b, h->point_b_m, end_b);
+    bt_point_velocity(motion, element->body_a, h->point_a_m, velocity_a);
+    bt_point_velocity(motion, element->body_b, h->point_b_m, velocity_b);
+    for (int i = 0; i < 3; ++i)
+        direction[i] = end_b[i] - end_a[i];
+    const double distance = bt_norm(direction);
+    *rate = 0;
+    for (int i = 0; i < 3; ++i) {
+        direction[i] /= distance;
+        *rate -= direction[i] * (velocity_b[i] - velocity_a[i]);
+    }
+    return h->length_m - distance;
+}
+
+static void hold_force(const bt_element* element, const bt_motion* motion, double* wrench,
+                       double* output) {
+    const bt_hook_hold* h = element->data;
+    double end_a[3], end_b[3], direction[3], rate, on_a[3], on_b[3];
+    const double stroke_m = stroke(element, motion, end_a, end_b, direction, &rate);
+    const double force = bt_hook_damper_force(&h->damper, stroke_m, rate);
+    for (int i = 0; i < 3; ++i) {
+        on_b[i] = force * direction[i];
+        on_a[i] = -on_b[i];
+    }
+    bt_wrench_add(motion, element->body_a, end_a, on_a, wrench);
+    bt_wrench_add(motion, element->body_b, end_b, on_b, wrench);
+    output[BT_HOOK_HOLD_STROKE] = stroke_m;
+    output[BT_HOOK_HOLD_RATE] = rate;
+    output[BT_HOOK_HOLD_FORCE] = force;
+}
+
+static double hold_energy(const bt_element* element, const bt_motion* motion) {
+    const bt_hook_hold* h = element->data;
+    double end_a[3], end_b[3], direction[3], rate;
+    return bt_hook_damper_energy(&h->damper,
+                                 stroke(element, motion, end_a, end_b, direction, &rate));
+}
+
+static const char* const output_names[] = {"stroke_m", "rate_mps", "force_N"};
+
+const bt_element_type bt_hook_hold_type = {
+    .name = "hook_hold",
+    .data_size = sizeof(bt_hook_hold),
+    .output_count = BT_HOOK_HOLD_OUTPUTS,
+    .output_names = output_names,
+    .force = hold_force,
+    .energy = hold_energy,
+    .dissipates = true,
+};
+
+void bt_hook_hold_place(double down_stop_rad, double lever_m, double angle_rad, double length_m,
+                        double on_shank[3], double on_fuselage[3]) {
+    const double c = cos(down_stop_rad), s = sin(down_stop_rad);
+    const double along[3] = {-c, 0, -s}, rising[3] = {-s, 0, c};
+    for (int i = 0; i < 3; ++i) {
+        on_shank[i] = lever_m * along[i];
+        on_fuselage[i] =
+            on_shank[i] + length_m * (sin(angle_rad) * rising[i] - cos(angle_rad) * along[i]);
+    }
+}

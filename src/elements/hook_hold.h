@@ -1,0 +1,34 @@
+/// Element `hook_hold`: the longitudinal damper of the hook between its two attachment points, so
+/// that its lever arm about the hook's pivot follows from where they are  [Peng2023 Eq. 9].
+#ifndef BT_ELEMENTS_HOOK_HOLD_H
+#define BT_ELEMENTS_HOOK_HOLD_H
+
+#include "elements/hook_damper.h"
+#include "mechanics/system.h"
+
+/// Data of one damper. body_a is the fuselage, body_b the hook.
+///
+///     s = length - |p_b - p_a|;  F(s, s') pushes the two points apart
+typedef struct bt_hook_hold {
+    bt_hook_damper damper;
+    double point_a_m[3], point_b_m[3]; ///< attachment points in a and in b
+    double length_m;                   ///< distance of the points when extended (s = 0)
+} bt_hook_hold;
+
+enum { BT_HOOK_HOLD_STROKE, BT_HOOK_HOLD_RATE, BT_HOOK_HOLD_FORCE, BT_HOOK_HOLD_OUTPUTS };
+
+/// Outputs stroke_m, rate_mps, force_N. Energy: gas and stops.
+extern const bt_element_type bt_hook_hold_type;
+
+/// Where the damper is attached, from what a drawing gives.
+///
+/// The shank leaves the pivot aft and down at `down_stop` below the fuselage axis (-x). The damper
+/// meets it at `lever` from the pivot under `angle` and lies above and behind it, `length` long, so
+/// that it shortens when the hook rises. At the down stop its lever arm is lever sin(angle).
+///
+/// @param on_shank     [3] from the pivot, fuselage axes, hook at the down stop
+/// @param on_fuselage  [3] from the pivot, fuselage axes
+void bt_hook_hold_place(double down_stop_rad, double lever_m, double angle_rad, double length_m,
+                        double on_shank[3], double on_fuselage[3]);
+
+#endif

@@ -1,0 +1,23 @@
+/// Element `strut`: an oleo between two bodies, along the axis of their prismatic joint.
+#ifndef BT_ELEMENTS_STRUT_H
+#define BT_ELEMENTS_STRUT_H
+
+#include "elements/oleo.h"
+#include "mechanics/system.h"
+
+/// Data of one strut. body_a carries the cylinder (airframe), body_b is the piston.
+///
+///     s = axis . (p_b - p_a),  s' its rate;  F_s(s, s') on a along +axis, on b along -axis
+typedef struct bt_strut {
+    bt_oleo oleo;
+    double point_a_m[3]; ///< in a: where point_b lies when the strut is extended
+    double axis_a[3];    ///< in a: unit vector, direction in which the piston moves in compression
+    double point_b_m[3]; ///< in b
+} bt_strut;
+
+enum { BT_STRUT_STROKE, BT_STRUT_RATE, BT_STRUT_FORCE, BT_STRUT_OUTPUTS };
+
+/// Outputs stroke_m, rate_mps, force_N. Energy: gas and stops.
+extern const bt_element_type bt_strut_type;
+
+#endif
