@@ -62,4 +62,35 @@ static inline void bt_euler_multiply(const double a[4], const double b[4], doubl
     c[3] = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0];
 }
 
+/// c = conj(a) b
+static inline void bt_euler_relative(const double a[4], const double b[4], double c[4]) {
+    const double conjugate[4] = {a[0], -a[1], -a[2], -a[3]};
+    bt_euler_multiply(conjugate, b, c);
+}
+
+static inline void bt_euler_normalise(double e[4]) {
+    const double s = 1 / sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3]);
+    for (int i = 0; i < 4; ++i)
+        e[i] *= s;
+}
+
+/// Euler parameters of the rotation vector theta: (cos |theta|/2, sin(|theta|/2) theta/|theta|).
+/// Small angles (all that a step makes) by the Taylor series to rounding: same bits everywhere.
+static inline void bt_euler_from_vector(const double theta[3], double e[4]) {
+    const double z = 0.25 * bt_dot(theta, theta); // (|theta|/2)^2
+    double c, s;                                  // cos x, sin x / x with x = |theta|/2
+    if (z < 0.0625) {
+        c = 1 - z / 2 * (1 - z / 12 * (1 - z / 30 * (1 - z / 56 * (1 - z / 90 * (1 - z / 132)))));
+        s = 1 - z / 6 * (1 - z / 20 * (1 - z / 42 * (1 - z / 72 * (1 - z / 110 * (1 - z / 156)))));
+    } else {
+        const double x = sqrt(z);
+        c = cos(x);
+        s = sin(x) / x;
+    }
+    e[0] = c;
+    e[1] = 0.5 * s * theta[0];
+    e[2] = 0.5 * s * theta[1];
+    e[3] = 0.5 * s * theta[2];
+}
+
 #endif

@@ -1,0 +1,79 @@
+#include "mechanics/dynamics.h"
+#include "mechanics/vec.h"
+
+#include <string.h>
+
+static void add_body(const bt_system* system, const bt_state* state, int b, bt_audit* audit) {
+    const bt_body* body = &system->bodies[b];
+    const double *q = state->q + 7 * b, *v = state->v + 6 * b;
+    double rotation[9], spin[3], world[3], moment[3];
+    bt_rotation_from_euler(q + 3, rotation);
+    bt_rotate(body->inertia, v + 3, spin);
+    bt_rotate(rotation, spin, world);
+    bt_cross(q, v, moment);
+    audit->kinetic_J += 0.5 * (body->mass_kg * bt_dot(v, v) + bt_dot(v + 3, spin));
+    audit->potential_J -= body->mass_kg * bt_dot(system->gravity_mps2, q);
+    bt_add_scaled(audit->momentum_Ns, body->mass_kg, v);
+    bt_add_scaled(audit->angular_momentum_Nms, body->mass_kg, moment);
+    bt_add_scaled(audit->angular_momentum_Nms, 1, world);
+    const double* e = q + 3;
+    const double norm = sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3]);
+    audit->norm_error = fmax(audit->norm_error, fabs(norm - 1));
+}
+
+/// Largest |G v| of a joint over the largest speed that its two points have.
+static double velocity_error(const bt_system* system, const bt_state* state, const double* rotation,
+                             int j) {
+    const bt_joint* joint = &system->joints[j];
+    double ga[6 * BT_JOINT_ROWS_MAX], gb[6 * BT_JOINT_ROWS_MAX], worst = 0;
+    bt_joint_jacobian(joint, state->q, rotation, ga, gb);
+    for (int r = 0; r < joint->row_count; ++r) {
+        double sum = 0, size = 0;
+        for (int k = 0; k < 6; ++k) {
+            const double a =
+                joint->body_a < 0 ? 0 : ga[6 * r + k] * state->v[6 * joint->body_a + k];
+            const double b =
+                joint->body_b < 0 ? 0 : gb[6 * r + k] * state->v[6 * joint->body_b + k];
+            sum += a + b;
+            size = fmax(size, fmax(fabs(a), fabs(b)));
+        }
+        if (size > 0)
+            worst = fmax(worst, fabs(sum) / fmax(size, joint->row_scale[r] * 1e-3));
+    }
+    return worst;
+}
+
+void bt_system_audit(const bt_system* system, const bt_state* state, bt_audit* audit) {
+    *audit = (bt_audit){0};
+    const bt_work* work = bt_work_of(state);
+    const bt_motion motion = {state->time_s, state->q, state->v, state->rotation};
+    for (int b = 0; b < system->body_count; ++b)
+        add_body(system, state, b, audit);
+    for (int i = 0; i < system->element_count; ++i) {
+        const bt_element* element = &system->elements[i].element;
+        if (element->type->energy)
+            audit->potential_J += element->type->energy(element, &motion);
+    }
+    audit->position_residual = bt_residual(system, state->q, state->rotation, work->phi, NULL);
+    for (int j = 0; j < system->joint_count; ++j)
+        audit->velocity_residual =
+            fmax(audit->velocity_residual, velocity_error(system, state, state->rotation, j));
+}
+
+void bt_system_joint_load(const bt_system* system, const bt_state* state, int joint,
+                          double force_N[3], double torque_Nm[3]) {
+    const bt_joint* j = &system->joints[joint];
+    static const double level[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const double* rotation = j->body_b < 0 ? level : state->rotation + 9 * j->body_b;
+    double ga[6 * BT_JOINT_ROWS_MAX], gb[6 * BT_JOINT_ROWS_MAX], total[6] = {0};
+    bt_joint_jacobian(j, state->q, state->rotation, ga, gb);
+    for (int r = 0; r < j->row_count; ++r)
+        for (int k = 0; k < 6; ++k)
+            total[k] += state->lambda[j->row + r] * gb[6 * r + k];
+    double arm[3], moment[3];
+    bt_rotate(rotation, j->point_b, arm);
+    bt_rotate(rotation, total + 3, torque_Nm); // about the centre of mass (ground: the origin)
+    bt_cross(arm, total, moment);
+    memcpy(force_N, total, 3 * sizeof(double));
+    bt_add_scaled(torque_Nm, -1, moment);
+}
