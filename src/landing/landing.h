@@ -32,8 +32,8 @@ enum { BT_LEG_NOSE, BT_LEG_LEFT, BT_LEG_RIGHT, BT_LEG_COUNT };
 typedef struct bt_landing_result {
     bt_outcome outcome;
     bt_mode mode;
-    bool retained;    ///< the throat still held the cable when the run ended
-    double margin_m;  ///< cable centre minus lip centre, vertical, when they meet; NAN if failed
+    bool retained;   ///< the throat still held the cable when the run ended
+    double margin_m; ///< cable centre minus lip centre, vertical, when they meet; NAN if failed
     double throat_force_peak_N;
     double time_of_contact_s; ///< first hook-cable contact after first deck contact; NAN if none
     int bounce_count;
@@ -43,8 +43,8 @@ typedef struct bt_landing_result {
     double tyre_force_max_N[BT_LEG_COUNT];
     double cable_tension_max_N;
     int64_t steps, cable_steps;
-    double end_time_s; ///< simulated time after first contact
-    double wall_s;     ///< not part of the outcome; differs from run to run
+    double end_time_s;   ///< simulated time after first contact
+    double wall_s;       ///< not part of the outcome; differs from run to run
     uint64_t state_hash; ///< of the final state: equal for bit-equal runs
     char failed_element[48], failed_quantity[48]; ///< failed runs only
     double failed_time_s;

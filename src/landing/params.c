@@ -21,8 +21,8 @@ BT_DEFINE_GROUP(hook_cable, BT_HOOK_CABLE_FIELDS, ROW, NULL, "contact of hook an
 
 static void check_hook(const void* params, const char* path, bt_diag* diag) {
     const bt_hook_params* hook = params;
-    const double about_centre = hook->inertia_kgm2 - hook->mass_kg * hook->mass_centre_m *
-                                                         hook->mass_centre_m;
+    const double about_centre =
+        hook->inertia_kgm2 - hook->mass_kg * hook->mass_centre_m * hook->mass_centre_m;
     if (!(about_centre > 0))
         bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
                     "%s.inertia: %g kg m^2 about the pivot is not above mass mass_centre^2 = %g "

@@ -24,8 +24,7 @@ static bt_piece arc(bt_zone zone, bool convex, const double centre[2], double ra
 }
 
 static bt_piece line(bt_zone zone, double u0, double w0, double u1, double w1, const double n[2]) {
-    return (bt_piece){
-        .zone = zone, .start = {u0, w0}, .end = {u1, w1}, .normal = {n[0], n[1]}};
+    return (bt_piece){.zone = zone, .start = {u0, w0}, .end = {u1, w1}, .normal = {n[0], n[1]}};
 }
 
 /// Refuses dimensions that give no outline, each with the value that would do.
@@ -65,8 +64,7 @@ static bt_status place_throat(const bt_hook_profile_params* p, const double lip[
     const double radii = p->lip_radius_m + p->throat_radius_m;
     throat[1] = -(p->arm_radius_m + p->throat_radius_m);
     const double across = lip[1] - throat[1];
-    const double along2 =
-        radii * radii + p->throat_length_m * p->throat_length_m - across * across;
+    const double along2 = radii * radii + p->throat_length_m * p->throat_length_m - across * across;
     if (!(along2 >= 0)) {
         bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
                     "%s.throat_length: %g mm is too short to join lip and throat; %g mm or more "
@@ -145,7 +143,6 @@ bt_status bt_profile_build(const bt_hook_profile_params* p, double arm_length_m,
         .shoe_radius = shoe,
         .arm_radius = r_arm,
         .half_width = 0.5 * p->width_m,
-        .reach = fmax(shoe, lip_distance + r_lip),
     };
     return BT_OK;
 }

@@ -16,7 +16,13 @@
 
 #include "landing/params.h"
 
-typedef enum bt_zone { BT_ZONE_SHOE, BT_ZONE_POINT, BT_ZONE_THROAT, BT_ZONE_ARM, BT_ZONE_COUNT } bt_zone;
+typedef enum bt_zone {
+    BT_ZONE_SHOE,
+    BT_ZONE_POINT,
+    BT_ZONE_THROAT,
+    BT_ZONE_ARM,
+    BT_ZONE_COUNT
+} bt_zone;
 
 const char* bt_zone_name(bt_zone zone);
 
@@ -36,7 +42,6 @@ typedef struct bt_profile {
     double lip[2];    ///< centre of the lip's rounding
     double throat[2]; ///< centre of the throat arc
     double lip_radius, shoe_radius, arm_radius, half_width;
-    double reach; ///< the head (all but the arm) lies within this distance of the origin
 } bt_profile;
 
 /// Builds the outline from its dimensions.

@@ -1,0 +1,395 @@
+#include "landing/airframe.h"
+
+#include "elements/centring.h"
+#include "elements/hook_hold.h"
+#include "elements/strut.h"
+#include "elements/wheel.h"
+#include "mechanics/vec.h"
+
+#include <string.h>
+
+const char* const bt_body_names[BT_BODY_COUNT] = {"fuselage",     "nose_piston", "left_piston",
+                                                  "right_piston", "nose_wheel",  "left_wheel",
+                                                  "right_wheel",  "hook"};
+
+/// Lift: a constant force on the fuselage at the aircraft's centre of gravity.
+typedef struct lift {
+    double force_N, point_m[3];
+} lift;
+
+static void lift_force(const bt_element* element, const bt_motion* motion, double* wrench,
+                       double* output) {
+    const lift* data = element->data;
+    const double force[3] = {0, 0, data->force_N};
+    double point[3];
+    (void)output;
+    bt_point_position(motion, element->body_a, data->point_m, point);
+    bt_wrench_add(motion, element->body_a, point, force, wrench);
+}
+
+static double lift_energy(const bt_element* element, const bt_motion* motion) {
+    const lift* data = element->data;
+    double point[3];
+    bt_point_position(motion, element->body_a, data->point_m, point);
+    return -data->force_N * point[2];
+}
+
+static const bt_element_type lift_type = {
+    .name = "lift", .data_size = sizeof(lift), .force = lift_force, .energy = lift_energy};
+
+static const bt_gear_params* gear_of(const bt_aircraft_params* aircraft, int leg) {
+    return leg == BT_LEG_NOSE ? &aircraft->nose_gear : &aircraft->main_gear;
+}
+
+/// Axles and pivot from the centre of gravity, struts fully extended.
+static void place_parts(const bt_aircraft_params* p, bt_airframe* f) {
+    static const double side[BT_LEG_COUNT] = {0, 1, -1};
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        const bt_gear_params* gear = gear_of(p, leg);
+        bt_tyre_prepare(&gear->tyre, &f->tyre[leg]);
+        f->tyre_width_m[leg] = gear->tyre.width_m * (double)gear->tyre.tyres;
+        f->axle_m[leg][0] = gear->station_m;
+        f->axle_m[leg][1] = side[leg] * gear->half_track_m;
+        f->axle_m[leg][2] = gear->underside_m + gear->tyre.radius_m;
+    }
+    f->pivot_m[0] = p->hook.pivot_x_m;
+    f->pivot_m[1] = 0;
+    f->pivot_m[2] = p->hook.pivot_z_m;
+    f->shoe_m[0] = p->hook.mass_centre_m - p->hook.length_m;
+    f->shoe_m[1] = f->shoe_m[2] = 0;
+}
+
+/// Euler parameters of the hook's body at a shank angle below the fuselage axis.
+static void hook_attitude(double angle_rad, double e[4]) {
+    e[0] = cos(0.5 * angle_rad);
+    e[1] = e[3] = 0;
+    e[2] = -sin(0.5 * angle_rad);
+}
+
+/// Stroke at which an unsprung mass hangs on its extended strut: F_s(s) + m g = 0.
+static double hanging_stroke(const bt_oleo* oleo, double weight_N, double stop_stiffness) {
+    double stroke = 0;
+    if (!(stop_stiffness > 0))
+        return 0;
+    for (int i = 0; i < 20; ++i)
+        stroke -=
+            (bt_oleo_gas_force(oleo, stroke) + bt_oleo_limit_force(oleo, stroke, 0) + weight_N) /
+            stop_stiffness;
+    return stroke;
+}
+
+/// Moment about the pivot that turns the hook down, at rest at a shank angle.
+static double hanging_moment(const bt_hook_params* p, const bt_hook_damper* damper,
+                             double angle_rad, double gravity_mps2) {
+    double on_shank[3], anchor[3];
+    bt_hook_hold_place(p->down_stop_rad, p->damper_lever_m, p->damper_angle_rad, p->damper_length_m,
+                       on_shank, anchor);
+    const double shank[3] = {-cos(angle_rad), 0, -sin(angle_rad)};
+    double line[3];
+    for (int i = 0; i < 3; ++i)
+        line[i] = p->damper_lever_m * shank[i] - anchor[i];
+    const double length = bt_norm(line), stroke = p->damper_length_m - length;
+    const double force =
+        bt_hook_damper_gas_force(damper, stroke) + bt_hook_damper_limit_force(damper, stroke, 0);
+    // the lever arm of a force along `line`: positive when it turns the shank down
+    const double arm = p->damper_lever_m * (shank[0] * line[2] - shank[2] * line[0]) / length;
+    return force * arm + p->mass_kg * gravity_mps2 * p->mass_centre_m * cos(angle_rad);
+}
+
+/// Shank angle at which the hook hangs on its down stop (secant steps from the stop).
+static double hanging_angle(const bt_hook_params* p, const bt_hook_damper* damper,
+                            double gravity_mps2) {
+    double a = p->down_stop_rad, b = a + 1e-4;
+    double fa = hanging_moment(p, damper, a, gravity_mps2);
+    for (int i = 0; i < 30 && b != a; ++i) {
+        const double fb = hanging_moment(p, damper, b, gravity_mps2);
+        if (fb == fa)
+            break;
+        const double c = b - fb * (b - a) / (fb - fa);
+        a = b;
+        fa = fb;
+        b = c;
+    }
+    return b;
+}
+
+/// Mass, place and inertia of the fuselage: the whole aircraft less its parts.
+static bt_status add_fuselage(const bt_aircraft_params* p, const bt_body_def* parts, bt_airframe* f,
+                              bt_diag* diag) {
+    double mass = p->mass_kg, first[3] = {0};
+    double inertia[6] = {
+        p->inertia_xx_kgm2, p->inertia_yy_kgm2, p->inertia_zz_kgm2, 0, p->inertia_xz_kgm2, 0};
+    for (int body = 1; body < BT_BODY_COUNT; ++body) {
+        const bt_body_def* part = &parts[body];
+        const double* r = part->position_m;
+        double a[9], turned[9] = {0};
+        bt_rotation_from_euler(part->attitude, a);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                for (int k = 0; k < 3; ++k)
+                    turned[3 * i + j] += a[3 * i + k] * part->inertia_kgm2[k] * a[3 * j + k];
+        mass -= part->mass_kg;
+        bt_add_scaled(first, -part->mass_kg, r);
+        const double r2 = bt_dot(r, r);
+        for (int i = 0; i < 3; ++i)
+            inertia[i] -= turned[4 * i] + part->mass_kg * (r2 - r[i] * r[i]);
+        inertia[3] -= turned[1] - part->mass_kg * r[0] * r[1];
+        inertia[4] -= turned[2] - part->mass_kg * r[0] * r[2];
+        inertia[5] -= turned[5] - part->mass_kg * r[1] * r[2];
+    }
+    if (!(mass > 0)) {
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "aircraft.mass: %g kg is not more than the mass of gear and hook, %g kg",
+                    p->mass_kg, p->mass_kg - mass);
+        return BT_ERR_INPUT;
+    }
+    double* r = f->fuselage_m;
+    for (int i = 0; i < 3; ++i)
+        r[i] = first[i] / mass;
+    for (int i = 0; i < 3; ++i)
+        inertia[i] -= mass * (bt_dot(r, r) - r[i] * r[i]);
+    inertia[3] += mass * r[0] * r[1];
+    inertia[4] += mass * r[0] * r[2];
+    inertia[5] += mass * r[1] * r[2];
+
+    bt_body_def fuselage = {.name = bt_body_names[BT_BODY_FUSELAGE],
+                            .mass_kg = mass,
+                            .position_m = {r[0], r[1], r[2]},
+                            .attitude = {1, 0, 0, 0}};
+    memcpy(fuselage.inertia_kgm2, inertia, sizeof inertia);
+    bt_system_add_body(f->system, &fuselage);
+    return BT_OK;
+}
+
+/// The parts other than the fuselage, as they hang in the glide, from the centre of gravity.
+static void describe_parts(const bt_aircraft_params* p, const bt_airframe* f,
+                           bt_body_def parts[BT_BODY_COUNT]) {
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        const bt_gear_params* gear = gear_of(p, leg);
+        const double* axle = f->axle_m[leg];
+        const double mp = gear->piston_mass_kg, mw = gear->wheel_mass_kg;
+        // a piston is a slender rod of half a metre; a wheel is a disc: half its inertia across
+        const double rod = mp * 0.25 / 12, across = 0.5 * gear->wheel_inertia_kgm2;
+        bt_body_def piston = {.name = bt_body_names[BT_BODY_NOSE_PISTON + leg],
+                              .mass_kg = mp,
+                              .inertia_kgm2 = {rod, rod, 0.1 * rod},
+                              .position_m = {axle[0], axle[1], axle[2] + f->stroke_m[leg]},
+                              .attitude = {1, 0, 0, 0}};
+        bt_body_def wheel = piston;
+        wheel.name = bt_body_names[BT_BODY_NOSE_WHEEL + leg];
+        wheel.mass_kg = mw;
+        wheel.inertia_kgm2[0] = wheel.inertia_kgm2[2] = across * 1.1;
+        wheel.inertia_kgm2[1] = gear->wheel_inertia_kgm2;
+        parts[BT_BODY_NOSE_PISTON + leg] = piston;
+        parts[BT_BODY_NOSE_WHEEL + leg] = wheel;
+    }
+    const bt_hook_params* h = &p->hook;
+    const double c = cos(f->hook_angle_rad), s = sin(f->hook_angle_rad);
+    const double about_centre = h->inertia_kgm2 - h->mass_kg * h->mass_centre_m * h->mass_centre_m;
+    bt_body_def hook = {
+        .name = bt_body_names[BT_BODY_HOOK],
+        .mass_kg = h->mass_kg,
+        .inertia_kgm2 = {h->axial_inertia_kgm2, about_centre, about_centre},
+        .position_m = {f->pivot_m[0] - h->mass_centre_m * c, 0,
+                       f->pivot_m[2] - h->mass_centre_m * s},
+    };
+    hook_attitude(f->hook_angle_rad, hook.attitude);
+    parts[BT_BODY_HOOK] = hook;
+}
+
+/// A point given from the centre of gravity, in the fuselage's frame.
+static void from_fuselage(const bt_airframe* f, const double point[3], double local[3]) {
+    for (int i = 0; i < 3; ++i)
+        local[i] = point[i] - f->fuselage_m[i];
+}
+
+static void add_legs(const bt_aircraft_params* p, bt_airframe* f) {
+    static const char* const strut_names[] = {"nose_strut", "left_strut", "right_strut"};
+    static const char* const tyre_names[] = {"nose_tyre", "left_tyre", "right_tyre"};
+    static const char* const slide_names[] = {"nose_slide", "left_slide", "right_slide"};
+    static const char* const axle_names[] = {"nose_axle", "left_axle", "right_axle"};
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        const bt_gear_params* gear = gear_of(p, leg);
+        const int piston = BT_BODY_NOSE_PISTON + leg, wheel = BT_BODY_NOSE_WHEEL + leg;
+        bt_joint_def slide = {.name = slide_names[leg],
+                              .kind = BT_JOINT_PRISMATIC,
+                              .body_a = BT_BODY_FUSELAGE,
+                              .body_b = piston,
+                              .axis_a = {0, 0, 1},
+                              .axis_b = {0, 0, 1},
+                              .attitude_ab = {1, 0, 0, 0}};
+        from_fuselage(f, f->axle_m[leg], slide.point_a_m);
+        f->strut_joint[leg] = bt_system_add_joint(f->system, &slide);
+        const bt_joint_def axle = {.name = axle_names[leg],
+                                   .kind = BT_JOINT_REVOLUTE,
+                                   .body_a = piston,
+                                   .body_b = wheel,
+                                   .axis_a = {0, 1, 0},
+                                   .axis_b = {0, 1, 0}};
+        bt_system_add_joint(f->system, &axle);
+
+        bt_strut strut = {.axis_a = {0, 0, 1}};
+        bt_oleo_prepare(&gear->oleo, &strut.oleo);
+        memcpy(strut.point_a_m, slide.point_a_m, sizeof strut.point_a_m);
+        f->strut[leg] = bt_system_add_element(f->system, &(bt_element){.type = &bt_strut_type,
+                                                                       .name = strut_names[leg],
+                                                                       .body_a = BT_BODY_FUSELAGE,
+                                                                       .body_b = piston,
+                                                                       .data = &strut});
+        const bt_wheel tread = {.tyre = f->tyre[leg]};
+        f->wheel[leg] = bt_system_add_element(f->system, &(bt_element){.type = &bt_wheel_type,
+                                                                       .name = tyre_names[leg],
+                                                                       .body_a = wheel,
+                                                                       .body_b = BT_GROUND,
+                                                                       .data = &tread});
+    }
+}
+
+static void add_hook(const bt_aircraft_params* p, const bt_hook_damper* damper, bt_airframe* f) {
+    const bt_hook_params* h = &p->hook;
+    bt_joint_def pivot = {.name = "hook_pivot",
+                          .kind = BT_JOINT_UNIVERSAL,
+                          .body_a = BT_BODY_FUSELAGE,
+                          .body_b = BT_BODY_HOOK,
+                          .point_b_m = {h->mass_centre_m, 0, 0},
+                          .axis_a = {0, 1, 0},
+                          .axis_b = {0, 0, 1}};
+    from_fuselage(f, f->pivot_m, pivot.point_a_m);
+    f->hook_joint = bt_system_add_joint(f->system, &pivot);
+
+    double on_shank[3], on_fuselage[3];
+    bt_hook_hold_place(h->down_stop_rad, h->damper_lever_m, h->damper_angle_rad, h->damper_length_m,
+                       on_shank, on_fuselage);
+    bt_hook_hold hold = {.damper = *damper,
+                         .length_m = h->damper_length_m,
+                         .point_b_m = {h->mass_centre_m - h->damper_lever_m, 0, 0}};
+    for (int i = 0; i < 3; ++i)
+        hold.point_a_m[i] = pivot.point_a_m[i] + on_fuselage[i];
+    f->damper = bt_system_add_element(f->system, &(bt_element){.type = &bt_hook_hold_type,
+                                                               .name = "hook_damper",
+                                                               .body_a = BT_BODY_FUSELAGE,
+                                                               .body_b = BT_BODY_HOOK,
+                                                               .data = &hold});
+    const bt_centring centring = {.axis_a = {0, 1, 0},
+                                  .axis_b = {0, 0, 1},
+                                  .neutral_b = {0, 1, 0},
+                                  .stiffness_Nmprad = h->centring_stiffness_Nmprad,
+                                  .damping_Nmsprad = h->centring_damping_Nmsprad};
+    bt_system_add_element(f->system, &(bt_element){.type = &bt_centring_type,
+                                                   .name = "centring_damper",
+                                                   .body_a = BT_BODY_FUSELAGE,
+                                                   .body_b = BT_BODY_HOOK,
+                                                   .data = &centring});
+    f->shoe_contact = (bt_shoe){.shoe_radius_m = f->profile.shoe_radius,
+                                .lip_radius_m = f->profile.lip_radius,
+                                .shoe_m = {f->shoe_m[0], f->shoe_m[1], f->shoe_m[2]},
+                                .lip_m = {f->shoe_m[0] + f->profile.lip[0], 0, f->profile.lip[1]}};
+    bt_impact_prepare(&h->deck_contact, &f->shoe_contact.impact);
+    f->shoe = bt_system_add_element(f->system, &(bt_element){.type = &bt_shoe_type,
+                                                             .name = "hook_shoe",
+                                                             .body_a = BT_BODY_HOOK,
+                                                             .body_b = BT_GROUND,
+                                                             .data = &f->shoe_contact});
+}
+
+static bt_status assemble(const bt_aircraft_params* p, double gravity_mps2, bt_airframe* f,
+                          bt_diag* diag) {
+    bt_hook_damper damper;
+    bt_hook_damper_prepare(&p->hook.damper, &damper);
+
+    // how the parts hang in the glide, where lift carries lift_ratio of the weight
+    const double felt = p->lift_ratio * gravity_mps2;
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        const bt_gear_params* gear = gear_of(p, leg);
+        bt_oleo oleo;
+        bt_oleo_prepare(&gear->oleo, &oleo);
+        f->stroke_m[leg] =
+            hanging_stroke(&oleo, felt * (gear->piston_mass_kg + gear->wheel_mass_kg),
+                           gear->oleo.stop_stiffness_Npm);
+    }
+    f->hook_angle_rad = hanging_angle(&p->hook, &damper, felt);
+
+    bt_body_def parts[BT_BODY_COUNT] = {0};
+    describe_parts(p, f, parts);
+    BT_TRY(add_fuselage(p, parts, f, diag));
+    for (int body = 1; body < BT_BODY_COUNT; ++body)
+        bt_system_add_body(f->system, &parts[body]);
+    add_legs(p, f);
+    add_hook(p, &damper, f);
+
+    lift up = {.force_N = p->lift_ratio * p->mass_kg * gravity_mps2};
+    static const double centre[3] = {0};
+    from_fuselage(f, centre, up.point_m);
+    bt_system_add_element(f->system, &(bt_element){.type = &lift_type,
+                                                   .name = "lift",
+                                                   .body_a = BT_BODY_FUSELAGE,
+                                                   .body_b = BT_GROUND,
+                                                   .data = &up});
+    const double gravity[3] = {0, 0, -gravity_mps2};
+    bt_system_set_gravity(f->system, gravity);
+    return bt_system_assemble(f->system, diag);
+}
+
+bt_status bt_airframe_build(const bt_aircraft_params* params, double gravity_mps2,
+                            double cable_radius_m, bt_airframe* airframe, bt_diag* diag) {
+    *airframe = (bt_airframe){0};
+    BT_TRY(bt_profile_build(&params->hook.profile, params->hook.length_m, cable_radius_m,
+                            "aircraft.hook.profile", &airframe->profile, diag));
+    place_parts(params, airframe);
+    BT_TRY(bt_system_create(&airframe->system));
+    const bt_status status = assemble(params, gravity_mps2, airframe, diag);
+    if (status != BT_OK)
+        bt_airframe_destroy(airframe);
+    return status;
+}
+
+void bt_airframe_destroy(bt_airframe* airframe) {
+    bt_system_destroy(airframe->system);
+    airframe->system = NULL;
+}
+
+/// Yaw, then pitch (nose up), then roll (port side up), as Euler parameters.
+static void attitude_of(const bt_landing_params* landing, double e[4]) {
+    const double yaw[4] = {cos(0.5 * landing->yaw_rad), 0, 0, sin(0.5 * landing->yaw_rad)};
+    const double pitch[4] = {cos(0.5 * landing->pitch_rad), 0, -sin(0.5 * landing->pitch_rad), 0};
+    const double roll[4] = {cos(0.5 * landing->roll_rad), sin(0.5 * landing->roll_rad), 0, 0};
+    double heading[4];
+    bt_euler_multiply(yaw, pitch, heading);
+    bt_euler_multiply(heading, roll, e);
+}
+
+void bt_airframe_place(const bt_airframe* f, const bt_landing_params* landing,
+                       const bt_state* hanging, bt_state* state, bt_glide* glide) {
+    double turn[4], a[9],
+        velocity[3] = {landing->horizontal_speed_mps, 0, -landing->sink_speed_mps};
+    attitude_of(landing, turn);
+    bt_rotation_from_euler(turn, a);
+    bt_state_copy(f->system, state, hanging);
+    for (int body = 0; body < BT_BODY_COUNT; ++body) {
+        const double* from = hanging->q + 7 * body;
+        double* q = state->q + 7 * body;
+        double* v = state->v + 6 * body;
+        bt_rotate(a, from, q);
+        bt_euler_multiply(turn, from + 3, q + 3);
+        bt_rotation_from_euler(q + 3, state->rotation + 9 * body);
+        memcpy(v, velocity, sizeof velocity);
+        memset(v + 3, 0, 3 * sizeof *v);
+        q[1] += landing->off_centre_m;
+    }
+
+    const bt_motion motion = {.q = state->q, .v = state->v, .rotation = state->rotation};
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        const double* q = state->q + 7 * (BT_BODY_NOSE_WHEEL + leg);
+        const double* r = state->rotation + 9 * (BT_BODY_NOSE_WHEEL + leg);
+        const double tilt = r[7], upright = sqrt(1 - tilt * tilt);
+        const double down[3] = {tilt * r[1] / upright, tilt * r[4] / upright, -upright};
+        for (int i = 0; i < 3; ++i)
+            glide->tyre_m[leg][i] = q[i] + f->tyre[leg].radius * down[i];
+    }
+    bt_shoe_lowest(&f->shoe_contact, &motion, BT_BODY_HOOK, glide->hook_m);
+}
+
+void bt_airframe_move(const double shift_m[3], bt_state* state) {
+    for (int body = 0; body < BT_BODY_COUNT; ++body)
+        bt_add_scaled(state->q + 7 * body, 1, shift_m);
+}
