@@ -148,7 +148,7 @@ static bool take_label(void* user, const bt_ledger_row* row) {
     }
     for (int i = 0; i < labels->axis_count; ++i)
         labels->x[labels->count * labels->axis_count + i] = row->x[i];
-    labels->hit[labels->count] = row->result.outcome == BT_ENGAGED;
+    labels->label[labels->count] = row->result.outcome == BT_ENGAGED ? 1 : -1;
     labels->margin_m[labels->count] = row->result.margin_m;
     ++labels->count;
     return true;
@@ -160,9 +160,9 @@ bt_status bt_labels_read(bt_ledger* ledger, int axis_count, bt_labels* labels, b
     BT_TRY(bt_ledger_count(ledger, &counts, diag));
     const size_t rows = (size_t)counts.runs + 1;
     labels->x = calloc(rows * (size_t)(axis_count + 1), sizeof *labels->x);
-    labels->hit = calloc(rows, sizeof *labels->hit);
+    labels->label = calloc(rows, sizeof *labels->label);
     labels->margin_m = calloc(rows, sizeof *labels->margin_m);
-    bt_status status = labels->x && labels->hit && labels->margin_m
+    bt_status status = labels->x && labels->label && labels->margin_m
                            ? bt_ledger_walk(ledger, take_label, labels, diag)
                            : BT_ERR_MEMORY;
     if (status != BT_OK)
@@ -172,7 +172,7 @@ bt_status bt_labels_read(bt_ledger* ledger, int axis_count, bt_labels* labels, b
 
 void bt_labels_destroy(bt_labels* labels) {
     free(labels->x);
-    free(labels->hit);
+    free(labels->label);
     free(labels->margin_m);
     *labels = (bt_labels){0};
 }

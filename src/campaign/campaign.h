@@ -35,12 +35,11 @@ BT_CHECKED bt_status bt_campaign_run(const bt_study* study, bt_ledger* ledger,
 
 /// The runs of a ledger as a classifier wants them: failed ones left out, in order of run number.
 typedef struct bt_labels {
-    int64_t count;
-    int axis_count;
-    double* x;          ///< [count * axis_count] row-major, SI
-    unsigned char* hit; ///< [count] 1: engaged
-    double* margin_m;   ///< [count]
-    int64_t failed;     ///< runs left out
+    int count, axis_count;
+    double* x;        ///< [count * axis_count] row-major, SI
+    int* label;       ///< [count] +1 engaged, -1 missed
+    double* margin_m; ///< [count]
+    int64_t failed;   ///< runs left out
 } bt_labels;
 
 /// Reads them; BT_ERR_MEMORY, BT_ERR_IO. To be given back by bt_labels_destroy.

@@ -145,8 +145,8 @@ static char* meta_get(const bt_ledger* ledger, const char* key) {
 static bt_status meta_set(bt_ledger* ledger, const char* key, const char* value, bt_diag* diag) {
     sqlite3_stmt* statement = NULL;
     bt_status status = BT_OK;
-    if (sqlite3_prepare_v2(ledger->db, "INSERT INTO meta VALUES (?, ?)", -1, &statement, NULL) !=
-            SQLITE_OK ||
+    if (sqlite3_prepare_v2(ledger->db, "INSERT OR REPLACE INTO meta VALUES (?, ?)", -1, &statement,
+                           NULL) != SQLITE_OK ||
         sqlite3_bind_text(statement, 1, key, -1, SQLITE_STATIC) != SQLITE_OK ||
         sqlite3_bind_text(statement, 2, value, -1, SQLITE_STATIC) != SQLITE_OK ||
         sqlite3_step(statement) != SQLITE_DONE)
@@ -274,12 +274,12 @@ static bt_status check_format(bt_ledger* ledger, bt_ledger_access how, const cha
     BT_TRY(ask(ledger, "PRAGMA page_count", &pages, diag));
     BT_TRY(ask(ledger, "PRAGMA application_id", &application, diag));
     BT_TRY(ask(ledger, "PRAGMA user_version", &version, diag));
-    if (how == BT_LEDGER_WRITE && sqlite3_db_readonly(ledger->db, "main") == 1) {
+    if (how != BT_LEDGER_READ && sqlite3_db_readonly(ledger->db, "main") == 1) {
         bt_diag_add(diag, BT_ERROR, here(ledger),
                     "the ledger cannot be written (read-only file or directory)");
         return BT_ERR_IO;
     }
-    if (pages == 0 && how == BT_LEDGER_WRITE)
+    if (pages == 0 && how == BT_LEDGER_CREATE)
         return create(ledger, identity, diag);
     if (application != APPLICATION_ID) {
         bt_diag_add(diag, BT_ERROR, here(ledger),
@@ -299,7 +299,7 @@ static bt_status check_format(bt_ledger* ledger, bt_ledger_access how, const cha
 }
 
 static bt_status open_checked(bt_ledger* ledger, bt_ledger_access how, bt_diag* diag) {
-    if (how == BT_LEDGER_READ && access(ledger->path, F_OK) != 0) {
+    if (how != BT_LEDGER_CREATE && access(ledger->path, F_OK) != 0) {
         bt_diag_add(diag, BT_ERROR, here(ledger),
                     "there is no ledger yet; run the campaign first (bolter campaign)");
         return BT_ERR_IO;
@@ -583,6 +583,16 @@ bt_status bt_ledger_hash(bt_ledger* ledger, uint64_t* hash, bt_diag* diag) {
     BT_TRY(bt_ledger_walk(ledger, hash_row, &h, diag));
     *hash = h.hash;
     return BT_OK;
+}
+
+char* bt_ledger_remark(const bt_ledger* ledger, const char* key) {
+    return meta_get(ledger, key);
+}
+
+bt_status bt_ledger_set_remark(bt_ledger* ledger, const char* key, const char* text,
+                               bt_diag* diag) {
+    BT_TRY(bt_ledger_commit(ledger, diag));
+    return meta_set(ledger, key, text, diag);
 }
 
 typedef struct merging {

@@ -13,8 +13,9 @@
 typedef struct bt_ledger bt_ledger;
 
 typedef enum bt_ledger_access {
-    BT_LEDGER_READ,  ///< must exist
-    BT_LEDGER_WRITE, ///< made when it does not exist
+    BT_LEDGER_READ,   ///< must exist
+    BT_LEDGER_WRITE,  ///< must exist
+    BT_LEDGER_CREATE, ///< for writing; made when it does not exist
 } bt_ledger_access;
 
 /// Opens the ledger of a study at a path.
@@ -68,6 +69,12 @@ BT_CHECKED bt_status bt_ledger_hash(bt_ledger* ledger, uint64_t* hash, bt_diag* 
 /// all. A run that both have must be the same to the bit (BT_ERR_INPUT otherwise).
 BT_CHECKED bt_status bt_ledger_merge(bt_ledger* ledger, const char* path, int64_t* added,
                                      bt_diag* diag);
+
+/// A remark that later work keeps with the ledger (which fit is up to date), by key; committed at
+/// once. Returns a text to be freed, NULL when there is none.
+char* bt_ledger_remark(const bt_ledger* ledger, const char* key);
+BT_CHECKED bt_status bt_ledger_set_remark(bt_ledger* ledger, const char* key, const char* text,
+                                          bt_diag* diag);
 
 /// What a campaign's runs depend on, one "path = value" per line: how a difference between two
 /// studies is named. The caller frees it; NULL when memory is out.

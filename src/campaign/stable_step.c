@@ -1,0 +1,81 @@
+#include "campaign/stable_step.h"
+
+#include "elements/tyre.h"
+#include "landing/cable.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static double step_of(double stiffness, double mass) {
+    return 2 / sqrt(stiffness / mass);
+}
+
+static double tyre_slope(const bt_tyre_params* params) {
+    bt_tyre tyre;
+    bt_tyre_prepare(params, &tyre);
+    const double d = 0.1 * params->radius_m, h = 1e-4 * params->radius_m;
+    return (bt_tyre_load(&tyre, d + h) - bt_tyre_load(&tyre, d - h)) / (2 * h);
+}
+
+/// Contact of the shoe at the depth of an impact at the sinking velocity; the hook's mass as felt
+/// at the shoe is I / x^2, x the horizontal distance of shoe and pivot.
+static double shoe_step(const bt_model_params* model) {
+    const bt_hook_params* hook = &model->aircraft.hook;
+    bt_impact contact;
+    bt_impact_prepare(&hook->deck_contact, &contact);
+    const double arm = hook->length_m * cos(fmin(hook->down_stop_rad, 1.4));
+    const double mass = hook->inertia_kgm2 / (arm * arm);
+    const double v = model->landing.sink_speed_mps;
+    const double depth = pow(1.25 * mass * v * v / contact.stiffness, 0.4);
+    return step_of(1.5 * contact.stiffness * sqrt(depth), mass);
+}
+
+static bt_status cable_step(const bt_model_params* model, double* stable_s, bt_diag* diag) {
+    enum { N = BT_CABLE_SEGMENTS_MAX };
+    bt_arena arena = {0};
+    BT_TRY(bt_arena_create(&arena, bt_cable_memory(N, 1) + sizeof(double) * N));
+    bt_cable_def def;
+    bt_cable_model cable;
+    bt_cable_def_init(&def, &model->deck.cable, model->deck.gravity_mps2,
+                      BT_TAKE(&arena, double, N));
+    const bt_status status = bt_cable_model_init(&cable, &def, &arena, diag);
+    if (status == BT_OK)
+        *stable_s = bt_cable_stable_step(&cable);
+    bt_arena_destroy(&arena);
+    return status;
+}
+
+bt_status bt_stable_steps(const bt_model_params* model, bt_stable_step* steps, int* count,
+                          bt_diag* diag) {
+    static const char airframe[] = "landing.solver.airframe_step";
+    static const char contact[] = "landing.solver.contact_step";
+    const bt_gear_params* nose = &model->aircraft.nose_gear;
+    const bt_gear_params* main_gear = &model->aircraft.main_gear;
+    const bt_hook_params* hook = &model->aircraft.hook;
+    const bt_solver_params* solver = &model->landing.solver;
+    const double nose_kg = nose->piston_mass_kg + nose->wheel_mass_kg;
+    const double main_kg = main_gear->piston_mass_kg + main_gear->wheel_mass_kg;
+    const double lever = hook->damper_lever_m;
+
+    double cable_s = 0;
+    BT_TRY(cable_step(model, &cable_s, diag));
+    const bt_stable_step all[] = {
+        {"aircraft.nose_gear.oleo", airframe, step_of(nose->oleo.stop_stiffness_Npm, nose_kg),
+         solver->airframe_step_s},
+        {"aircraft.nose_gear.tyre", airframe, step_of(tyre_slope(&nose->tyre), nose_kg),
+         solver->airframe_step_s},
+        {"aircraft.main_gear.oleo", airframe, step_of(main_gear->oleo.stop_stiffness_Npm, main_kg),
+         solver->airframe_step_s},
+        {"aircraft.main_gear.tyre", airframe, step_of(tyre_slope(&main_gear->tyre), main_kg),
+         solver->airframe_step_s},
+        {"aircraft.hook.damper", contact,
+         step_of(hook->damper.stop_stiffness_Npm * lever * lever, hook->inertia_kgm2),
+         solver->contact_step_s},
+        {"aircraft.hook.deck_contact", contact, shoe_step(model), solver->contact_step_s},
+        {"deck.cable", "landing.solver.cable_courant", cable_s, cable_s * solver->cable_courant},
+    };
+    *count = (int)(sizeof all / sizeof all[0]);
+    for (int i = 0; i < *count; ++i)
+        steps[i] = all[i];
+    return BT_OK;
+}

@@ -1,0 +1,30 @@
+/// How large a step each part of a landing bears: for `bolter check`.
+#ifndef BT_CAMPAIGN_STABLE_STEP_H
+#define BT_CAMPAIGN_STABLE_STEP_H
+
+#include "base/diag.h"
+#include "landing/params.h"
+
+typedef struct bt_stable_step {
+    const char* element; ///< "aircraft.hook.deck_contact"
+    const char* setting; ///< the step it limits: "landing.solver.contact_step"
+    double stable_s;     ///< 2 / omega of the element's stiffest state; the cable: of its kernel
+    double used_s;       ///< what the study sets
+} bt_stable_step;
+
+enum { BT_STABLE_STEP_MAX = 12 };
+
+/// Fills steps [BT_STABLE_STEP_MAX] and returns how many. omega = sqrt(k / m) with the element's
+/// largest stiffness k in this landing and the smallest mass m it moves:
+///
+/// struts     k_l of Eq. 5 on piston and wheel
+/// tyres      slope of the load curve at a deflection of a tenth of the radius, on piston and wheel
+/// down stop  k r^2 on the hook's inertia about its pivot, r the damper's lever
+/// shoe       slope 3/2 K delta^1/2 of Eq. 10 at the depth of an impact at the sinking velocity,
+///            delta = (5 m v^2 / (4 K))^(2/5), m the hook's mass as felt at the shoe
+///
+/// BT_ERR_INPUT (a cable that cannot be assembled, said in diag), BT_ERR_MEMORY.
+BT_CHECKED bt_status bt_stable_steps(const bt_model_params* model, bt_stable_step* steps,
+                                     int* count, bt_diag* diag);
+
+#endif

@@ -1,0 +1,125 @@
+#include "cli/chain.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+/// "2/8" -> shard 1 of 8 (counted from 0).
+static bool read_shard(const bt_command* command, const char* text, int* shard, int* shards) {
+    int i = 0, n = 0, end = 0;
+    if (sscanf(text, "%d/%d%n", &i, &n, &end) == 2 && text[end] == '\0' && i >= 1 && i <= n) {
+        *shard = i - 1;
+        *shards = n;
+        return true;
+    }
+    bt_usage_error(command, "--shard: \"%s\" is not of the form i/n with 1 <= i <= n", text);
+    return false;
+}
+
+static bt_status print(bt_chain* chain, int64_t total, const bt_ledger_counts* counts) {
+    uint64_t hash = 0;
+    char path[BT_FILE_PATH_MAX], hash_text[24];
+    BT_TRY(bt_ledger_hash(chain->ledger, &hash, &chain->diag));
+    BT_TRY(bt_chain_file(chain, BT_LEDGER_NAME, path));
+    snprintf(hash_text, sizeof hash_text, "%016" PRIx64, hash);
+    if (!chain->command->json) {
+        if (!chain->command->quiet)
+            printf("%lld of %lld landings: %lld engaged, %lld missed, %lld failed\n"
+                   "ledger %s (content %s)\n",
+                   (long long)counts->runs, (long long)total, (long long)counts->engaged,
+                   (long long)counts->missed, (long long)counts->failed, path, hash_text);
+        return BT_OK;
+    }
+    bt_json json = {.out = stdout};
+    bt_json_begin_object(&json, NULL);
+    bt_json_integer(&json, "total", total);
+    bt_json_integer(&json, "done", counts->runs);
+    bt_json_integer(&json, "engaged", counts->engaged);
+    bt_json_integer(&json, "missed", counts->missed);
+    bt_json_integer(&json, "failed", counts->failed);
+    bt_json_string(&json, "ledger", path);
+    bt_json_string(&json, "ledger_hash", hash_text);
+    bt_json_end_object(&json);
+    return BT_OK;
+}
+
+static bt_status print_state(bt_chain* chain) {
+    bt_ledger_counts counts;
+    bt_design* design = NULL;
+    BT_TRY(bt_ledger_count(chain->ledger, &counts, &chain->diag));
+    BT_TRY(bt_design_create(&chain->study, &design, &chain->diag));
+    const int64_t total = bt_design_count(design);
+    bt_design_destroy(design);
+    return print(chain, total, &counts);
+}
+
+static bt_status run_all(bt_chain* chain, int shard, int shards) {
+    bt_campaign_progress progress;
+    const bt_status status = bt_chain_campaign(chain, shard, shards, &progress);
+    if (status != BT_OK && status != BT_ERR_INTERRUPTED && status != BT_ERR_FAILED_RUNS)
+        return status;
+    const bt_status printed = print_state(chain);
+    return status == BT_OK ? printed : status;
+}
+
+static bt_status merge(bt_chain* chain) {
+    const bt_command* command = chain->command;
+    for (int i = 1; i < command->word_count; ++i) {
+        int64_t added = 0;
+        BT_TRY(bt_ledger_merge(chain->ledger, command->words[i], &added, &chain->diag));
+        if (!command->quiet && !command->json)
+            fprintf(stderr, "%s: %lld landings added\n", command->words[i], (long long)added);
+    }
+    return print_state(chain);
+}
+
+static bt_status run(const bt_command* typed) {
+    const bool status_only = strcmp(typed->words[0], "status") == 0;
+    const bool merging = strcmp(typed->words[0], "merge") == 0;
+    bt_command command = *typed;
+    if (status_only || merging) {
+        memmove(command.words, command.words + 1, sizeof command.words - sizeof command.words[0]);
+        --command.word_count;
+    }
+    int shard = 0, shards = 1;
+    if (command.word_count < 1 + merging)
+        return bt_usage_error(&command, "%s expected",
+                              merging ? "STUDY.yaml and at least one ledger" : "STUDY.yaml");
+    if (command.word_count > 1 && !merging)
+        return bt_usage_error(&command, "\"%s\" is one argument too many", command.words[1]);
+    if (command.option[0] && !read_shard(&command, command.option[0], &shard, &shards))
+        return BT_ERR_ARG;
+
+    bt_chain chain;
+    bt_status status =
+        bt_chain_open(&command, status_only ? BT_LEDGER_READ : BT_LEDGER_CREATE, &chain);
+    if (status == BT_OK)
+        status = status_only ? print_state(&chain)
+                 : merging   ? merge(&chain)
+                             : run_all(&chain, shard, shards);
+    bt_chain_close(&chain);
+    return status;
+}
+
+static const struct argp_option options[] = {
+    {"shard", BT_OPTION, "i/n", 0, "run only part i of n; each part in a directory of its own (-o)",
+     1},
+    {0},
+};
+
+const bt_verb bt_verb_campaign = {
+    .name = "campaign",
+    .summary = "run the landings of the design that the ledger lacks",
+    .arguments = "STUDY.yaml\nstatus STUDY.yaml\nmerge STUDY.yaml LEDGER...",
+    .text = "Runs the study's design of experiments into STUDY/campaign.sqlite, one row per "
+            "landing. Whatever ended an earlier run (Ctrl-C, a kill, a full disk), only the "
+            "missing landings are run: the results are the same to the bit, for any number of "
+            "threads.\n\n"
+            "`campaign status' says how far it is and may be asked while it runs.\n\n"
+            "On several machines: bolter campaign study.yaml --shard 1/4 -o part1, and so on; then "
+            "bolter campaign merge study.yaml part*/campaign.sqlite.",
+    .options = options,
+    .least_words = 1,
+    .most_words = BT_WORDS_MAX,
+    .run = run,
+};

@@ -1,0 +1,114 @@
+#include "campaign/design.h"
+#include "campaign/stable_step.h"
+#include "cli/cli.h"
+
+#include "base/units.h"
+
+#include <stdio.h>
+
+/// What is allowed but seldom meant: each line is a warning on stderr.
+static void warn(const bt_study* study, const bt_stable_step* steps, int step_count,
+                 bt_diag* diag) {
+    for (int i = 0; i < step_count; ++i)
+        if (steps[i].used_s > steps[i].stable_s)
+            bt_diag_add(diag, BT_WARNING, BT_NOWHERE,
+                        "%s: %.3g us is above the stable step of %s, %.3g us: landings may diverge",
+                        steps[i].setting, 1e6 * steps[i].used_s, steps[i].element,
+                        1e6 * steps[i].stable_s);
+    for (int i = 0; i < study->input_count; ++i) {
+        const bt_input* input = &study->inputs[i];
+        if (study->campaign.design == BT_DESIGN_MONTE_CARLO || !input->random)
+            continue;
+        if (!input->bounded) {
+            bt_diag_add(diag, BT_WARNING, input->where,
+                        "%s scatters but has no range in campaign.bounds: the campaign keeps it at "
+                        "its value, so the surrogate cannot know what it does",
+                        input->path);
+            continue;
+        }
+        const bt_distribution* d = &input->distribution;
+        const double outside =
+            bt_distribution_cdf(d, input->lower) + 1 - bt_distribution_cdf(d, input->upper);
+        if (outside > 0.05)
+            bt_diag_add(diag, BT_WARNING, input->where,
+                        "%s: %.0f %% of its distribution lies outside its range in campaign.bounds",
+                        input->path, 100 * outside);
+    }
+}
+
+static void print_text(const bt_study* study, int64_t runs, const bt_stable_step* steps,
+                       int step_count) {
+    const bt_axes axes = bt_design_axes(study);
+    printf("%s\n", study->title);
+    printf("campaign    %lld landings, design %s, over", (long long)runs,
+           bt_design_names[study->campaign.design]);
+    for (int i = 0; i < axes.count; ++i)
+        printf("%s %s", i ? "," : "", study->inputs[axes.input[i]].path);
+    printf("\nreliability %d conditions, %lld samples each, checked by %lld landings each\n",
+           study->condition_count, (long long)study->reliability.samples,
+           (long long)study->reliability.truth_runs);
+    printf("results     %s\n\n", study->directory);
+    printf("%-28s %12s %12s\n", "element", "stable step", "step used");
+    for (int i = 0; i < step_count; ++i)
+        printf("%-28s %9.3g us %9.3g us\n", steps[i].element, 1e6 * steps[i].stable_s,
+               1e6 * steps[i].used_s);
+}
+
+static void print_json(const bt_study* study, int64_t runs, const bt_stable_step* steps,
+                       int step_count) {
+    bt_json json = {.out = stdout};
+    bt_json_begin_object(&json, NULL);
+    bt_json_string(&json, "title", study->title);
+    bt_json_integer(&json, "runs", runs);
+    bt_json_string(&json, "directory", study->directory);
+    bt_json_begin_array(&json, "stable_steps");
+    for (int i = 0; i < step_count; ++i) {
+        bt_json_begin_object(&json, NULL);
+        bt_json_string(&json, "element", steps[i].element);
+        bt_json_string(&json, "setting", steps[i].setting);
+        bt_json_number(&json, "stable_s", steps[i].stable_s);
+        bt_json_number(&json, "used_s", steps[i].used_s);
+        bt_json_end_object(&json);
+    }
+    bt_json_end_array(&json);
+    bt_json_end_object(&json);
+}
+
+static bt_status check(const bt_command* command, const bt_study* study) {
+    bt_diag diag = bt_stderr_diag();
+    bt_design* design = NULL;
+    BT_TRY(bt_design_create(study, &design, &diag));
+    const int64_t runs = bt_design_count(design);
+    bt_design_destroy(design);
+
+    bt_stable_step steps[BT_STABLE_STEP_MAX];
+    int step_count = 0;
+    BT_TRY(bt_stable_steps(&study->model, steps, &step_count, &diag));
+    warn(study, steps, step_count, &diag);
+    if (command->json)
+        print_json(study, runs, steps, step_count);
+    else if (!command->quiet)
+        print_text(study, runs, steps, step_count);
+    return BT_OK;
+}
+
+static bt_status run(const bt_command* command) {
+    bt_study study;
+    BT_TRY(bt_command_study(command, &study));
+    const bt_status status = check(command, &study);
+    bt_study_destroy(&study);
+    return status;
+}
+
+const bt_verb bt_verb_check = {
+    .name = "check",
+    .summary = "check a study file: every mistake with its place",
+    .arguments = "STUDY.yaml",
+    .text = "Reads the study and the files it names, converts every value, and reports all "
+            "mistakes at once, each as file:line:column: error: key: what is wrong and what would "
+            "be right. If there are none it prints what the study will do and the largest stable "
+            "time step of each element beside the step used. Nothing is run or written.",
+    .least_words = 1,
+    .most_words = 1,
+    .run = run,
+};

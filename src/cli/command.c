@@ -1,0 +1,137 @@
+#include "cli/cli.h"
+
+#include "base/units.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct argp_option common_options[] = {
+    {"set", 's', "PATH=VALUE", 0,
+     "change one key of the study, for example --set landing.pitch='4 deg'; may be repeated", 10},
+    {"output", 'o', "PATH", 0, "where results go (default: a directory named after the study)", 10},
+    {"json", 'j', 0, 0, "print one JSON object on standard output and nothing else", 10},
+    {"quiet", 'q', 0, 0, "no progress, no remarks; errors are still printed", 10},
+    {0},
+};
+
+static error_t parse_option(int key, char* argument, struct argp_state* state) {
+    bt_command* command = state->input;
+    switch (key) {
+    case 's':
+        if (command->set_count == BT_SETS_MAX)
+            argp_error(state, "more than %d --set", BT_SETS_MAX);
+        command->sets[command->set_count++] = argument;
+        return 0;
+    case 'o':
+        command->output = argument;
+        return 0;
+    case 'j':
+        command->json = true;
+        return 0;
+    case 'q':
+        command->quiet = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (command->word_count == command->verb->most_words)
+            argp_error(state, "\"%s\" is one argument too many", argument);
+        command->words[command->word_count++] = argument;
+        return 0;
+    case ARGP_KEY_END:
+        if (command->word_count < command->verb->least_words)
+            argp_error(state, "%s expected", command->verb->arguments);
+        return 0;
+    default:
+        if (key < BT_OPTION || key >= BT_OPTION + BT_OWN_OPTIONS_MAX)
+            return ARGP_ERR_UNKNOWN;
+        command->option[key - BT_OPTION] = argument ? argument : "";
+        return 0;
+    }
+}
+
+void bt_command_parse(const bt_verb* verb, int argc, char** argv, bt_command* command) {
+    *command = (bt_command){.verb = verb};
+    struct argp_option options[BT_OWN_OPTIONS_MAX + 8] = {{0}};
+    int count = 0;
+    for (const struct argp_option* o = verb->options; o && o->name; ++o)
+        options[count++] = *o;
+    memcpy(options + count, common_options, sizeof common_options);
+
+    char name[64], text[4096];
+    snprintf(name, sizeof name, "bolter %s", verb->name);
+    snprintf(text, sizeof text, "%s.\v%s", verb->summary, verb->text);
+    argv[0] = name;
+    argp_err_exit_status = bt_exit_code(BT_ERR_ARG);
+    const struct argp argp = {options, parse_option, verb->arguments, text, NULL, NULL, NULL};
+    if (argp_parse(&argp, argc, argv, 0, NULL, command) != 0)
+        exit(bt_exit_code(BT_ERR_ARG));
+    argv[0] = NULL;
+}
+
+int bt_exit_code(bt_status status) {
+    switch (status) {
+    case BT_OK:
+        return 0;
+    case BT_ERR_ARG:
+        return 2;
+    case BT_ERR_INPUT:
+        return 3;
+    case BT_ERR_FAILED_RUNS:
+        return 4;
+    case BT_ERR_IO:
+        return 5;
+    case BT_ERR_INTERRUPTED:
+        return 130;
+    default:
+        return 1;
+    }
+}
+
+static void print_message(void* user, bt_severity severity, bt_where where, const char* text) {
+    char line[2048];
+    (void)user;
+    bt_diag_format(line, sizeof line, severity, where, text);
+    fprintf(stderr, "%s\n", line);
+}
+
+bt_diag bt_stderr_diag(void) {
+    return (bt_diag){.sink = print_message};
+}
+
+bt_status bt_command_study(const bt_command* command, bt_study* study) {
+    bt_diag diag = bt_stderr_diag();
+    const char* file = command->words[0];
+    const bt_status status = bt_study_read(file, command->sets, command->set_count, study, &diag);
+    if (status != BT_OK) {
+        fprintf(stderr, "%s: %d error%s, nothing was run\n", file, diag.errors,
+                diag.errors == 1 ? "" : "s");
+        return status;
+    }
+    if (command->output)
+        snprintf(study->directory, sizeof study->directory, "%s", command->output);
+    return BT_OK;
+}
+
+bt_status bt_usage_error(const bt_command* command, const char* format, ...) {
+    va_list args;
+    fprintf(stderr, "bolter %s: ", command->verb->name);
+    va_start(args, format);
+    vfprintf(stderr, format, args);
+    va_end(args);
+    fprintf(stderr, "\nTry `bolter %s --help' for more information.\n", command->verb->name);
+    return BT_ERR_ARG;
+}
+
+bool bt_whole_number(const bt_command* command, const char* name, const char* text, int64_t least,
+                     int64_t* value) {
+    double number = 0;
+    if (bt_number_parse(text, &number) == BT_OK && number == floor(number) &&
+        number >= (double)least && number <= 9e15) {
+        *value = (int64_t)number;
+        return true;
+    }
+    bt_usage_error(command, "%s: \"%s\" is not a whole number from %lld on", name, text,
+                   (long long)least);
+    return false;
+}

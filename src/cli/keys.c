@@ -1,0 +1,35 @@
+#include "cli/cli.h"
+
+#include <stdio.h>
+
+static void print(void* user, const char* text) {
+    (void)user;
+    fputs(text, stdout);
+}
+
+static bt_status run(const bt_command* command) {
+    if (command->json)
+        return bt_usage_error(command, "there is no --json form of the keys");
+    if (command->option[0])
+        bt_study_defaults(print, NULL);
+    else
+        bt_study_keys(print, NULL);
+    return BT_OK;
+}
+
+static const struct argp_option options[] = {
+    {"defaults", BT_OPTION, 0, 0, "write a complete commented study with every default", 1},
+    {0},
+};
+
+const bt_verb bt_verb_keys = {
+    .name = "keys",
+    .summary = "list every key of a study: unit, default, range, equation, meaning",
+    .arguments = "",
+    .text = "Any numeric key can be changed with --set, given a distribution in `uncertainty:', "
+            "and made an axis of the campaign in `campaign.bounds:'.\n\n"
+            "To begin a study of your own:  bolter keys --defaults > mine.yaml",
+    .options = options,
+    .most_words = 0,
+    .run = run,
+};

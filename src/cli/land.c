@@ -1,0 +1,51 @@
+#include "cli/cli.h"
+#include "report/history.h"
+#include "report/landing_report.h"
+
+#include <stdio.h>
+
+static bt_status land(const bt_command* command, const bt_study* study, bt_history* history) {
+    bt_diag diag = bt_stderr_diag();
+    bt_lander* lander = NULL;
+    bt_landing_result result;
+    BT_TRY(bt_lander_create(&lander));
+    bt_status status = bt_lander_run(lander, &study->model, &result,
+                                     history ? bt_history_observe : NULL, history, &diag);
+    bt_lander_destroy(lander);
+    if (status == BT_OK && history)
+        status = bt_history_write(history, command->output, study, &result, &diag);
+    if (status != BT_OK)
+        return status;
+    if (command->json) {
+        bt_json json = {.out = stdout};
+        bt_landing_write_json(&json, &result);
+    } else if (!command->quiet)
+        bt_landing_print(stdout, &result);
+    return result.outcome == BT_FAILED ? BT_ERR_FAILED_RUNS : BT_OK;
+}
+
+static bt_status run(const bt_command* command) {
+    bt_study study;
+    bt_history* history = NULL;
+    BT_TRY(bt_command_study(command, &study));
+    bt_status status = command->output ? bt_history_create(&history) : BT_OK;
+    if (status == BT_OK)
+        status = land(command, &study, history);
+    bt_history_destroy(history);
+    bt_study_destroy(&study);
+    return status;
+}
+
+const bt_verb bt_verb_land = {
+    .name = "land",
+    .summary = "simulate one landing: outcome, bounces, peak loads",
+    .arguments = "STUDY.yaml",
+    .text = "Simulates the landing of the study's `landing:' and says whether the hook caught the "
+            "wire, how, by which margin, how the hook bounced, and the peak loads.\n\n"
+            "  bolter land study.yaml --set landing.distance='7 m'\n"
+            "  bolter land study.yaml -o landing.h5     time histories (HDF5, with units)\n\n"
+            "The exit code is 4 when the computation diverged.",
+    .least_words = 1,
+    .most_words = 1,
+    .run = run,
+};

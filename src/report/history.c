@@ -1,0 +1,274 @@
+#include "report/history.h"
+
+#include <errno.h>
+#include <hdf5.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/// What is kept of every view: one row here, one dataset in the file.
+typedef struct channel {
+    const char* name; ///< in the file
+    const char* unit;
+    const char* meaning;
+    size_t offset; ///< in bt_landing_view
+    int count;     ///< doubles
+} channel;
+
+#define AT(member) offsetof(bt_landing_view, member)
+static const channel channels[] = {
+    {"time_s", "s", "time since the first contact with the deck", AT(time_s), 1},
+    {"hook/angle_rad", "rad", "shank below the fuselage axis", AT(hook_angle_rad), 1},
+    {"hook/height_m", "m", "lowest point of the head above the deck", AT(hook_height_m), 1},
+    {"hook/shoe_m", "m", "centre of the shoe arc: x, y, z", AT(hook_shoe_m), 3},
+    {"hook/lip_m", "m", "centre of the lip: x, y, z", AT(hook_lip_m), 3},
+    {"hook/deck_force_N", "N", "normal force of the deck on the head", AT(hook_deck_force_N), 1},
+    {"hook/damper_force_N", "N", "force of the longitudinal damper", AT(hook_damper_force_N), 1},
+    {"hook/pivot_force_N", "N", "force of the fuselage on the hook: x, y, z",
+     AT(hook_pivot_force_N), 3},
+    {"hook/zone_force_N", "N", "normal force of the cable on shoe, point, throat, arm",
+     AT(zone_force_N), BT_ZONE_COUNT},
+    {"legs/stroke_m", "m", "strut stroke: nose, left, right", AT(stroke_m), BT_LEG_COUNT},
+    {"legs/strut_force_N", "N", "strut force: nose, left, right", AT(strut_force_N), BT_LEG_COUNT},
+    {"legs/side_force_N", "N", "force across the strut: nose, left, right", AT(strut_side_force_N),
+     BT_LEG_COUNT},
+    {"legs/tyre_deflection_m", "m", "tyre deflection: nose, left, right", AT(tyre_deflection_m),
+     BT_LEG_COUNT},
+    {"legs/tyre_force_N", "N", "tyre force from deck and cable: nose, left, right",
+     AT(tyre_force_N), BT_LEG_COUNT},
+    {"legs/tyre_cable_force_N", "N", "part of the tyre force that lies on the cable",
+     AT(tyre_cable_force_N), BT_LEG_COUNT},
+    {"legs/wheel_spin_radps", "rad/s", "wheel speed: nose, left, right", AT(wheel_spin_radps),
+     BT_LEG_COUNT},
+    {"airframe/energy_J", "J", "kinetic, gravity and spring energy of the airframe", AT(energy_J),
+     1},
+};
+enum { CHANNEL_COUNT = sizeof channels / sizeof channels[0] };
+enum { Q_SIZE = 7 * BT_BODY_COUNT, V_SIZE = 6 * BT_BODY_COUNT };
+static const double cable_interval_s = 1e-3;
+
+/// A matrix that grows row by row; all rows have the width of the first.
+typedef struct rows {
+    double* data;
+    size_t count, width, room;
+} rows;
+
+struct bt_history {
+    rows channel[CHANNEL_COUNT];
+    rows q, v;
+    rows cable_time, cable_x, cable_y, cable_z, cable_tension;
+    bool out_of_memory;
+};
+
+static void append(bt_history* history, rows* r, const double* row, size_t width) {
+    if (r->count == r->room) {
+        const size_t room = r->room ? 2 * r->room : 1024;
+        double* data = realloc(r->data, room * width * sizeof *data);
+        if (!data) {
+            history->out_of_memory = true;
+            return;
+        }
+        r->data = data;
+        r->room = room;
+        r->width = width;
+    }
+    memcpy(r->data + r->count * r->width, row, width * sizeof *row);
+    ++r->count;
+}
+
+bt_status bt_history_create(bt_history** history) {
+    *history = calloc(1, sizeof **history);
+    return *history ? BT_OK : BT_ERR_MEMORY;
+}
+
+void bt_history_destroy(bt_history* history) {
+    if (!history)
+        return;
+    for (int i = 0; i < CHANNEL_COUNT; ++i)
+        free(history->channel[i].data);
+    rows* const others[] = {
+        &history->q,       &history->v,       &history->cable_time,   &history->cable_x,
+        &history->cable_y, &history->cable_z, &history->cable_tension};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
+        free(others[i]->data);
+    free(history);
+}
+
+static void observe_cable(bt_history* h, const bt_landing_view* view) {
+    const rows* time = &h->cable_time;
+    const bool due = time->count == 0 || view->last ||
+                     view->time_s >= time->data[time->count - 1] + cable_interval_s;
+    if (!due || view->cable_count < 2)
+        return;
+    const size_t n = (size_t)view->cable_count;
+    append(h, &h->cable_time, &view->time_s, 1);
+    append(h, &h->cable_x, view->cable_x, n);
+    append(h, &h->cable_y, view->cable_y, n);
+    append(h, &h->cable_z, view->cable_z, n);
+    append(h, &h->cable_tension, view->cable_tension_N, n - 1);
+}
+
+void bt_history_observe(void* user, const bt_landing_view* view) {
+    bt_history* h = user;
+    if (h->out_of_memory)
+        return;
+    for (int i = 0; i < CHANNEL_COUNT; ++i)
+        append(h, &h->channel[i], (const double*)((const char*)view + channels[i].offset),
+               (size_t)channels[i].count);
+    append(h, &h->q, view->q, Q_SIZE);
+    append(h, &h->v, view->v, V_SIZE);
+    observe_cable(h, view);
+}
+
+static bool write_text(hid_t object, const char* name, const char* text) {
+    const hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
+    bool good = space >= 0 && type >= 0 && H5Tset_size(type, strlen(text) + 1) >= 0 &&
+                H5Tset_cset(type, H5T_CSET_UTF8) >= 0;
+    const hid_t attribute =
+        good ? H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT) : -1;
+    good = attribute >= 0 && H5Awrite(attribute, type, text) >= 0;
+    if (attribute >= 0)
+        good &= H5Aclose(attribute) >= 0;
+    if (type >= 0)
+        H5Tclose(type);
+    if (space >= 0)
+        H5Sclose(space);
+    return good;
+}
+
+/// The study's text as a dataset of one string: it may be longer than an attribute can be.
+static bool write_study(hid_t file, const char* text) {
+    const hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
+    bool good = space >= 0 && type >= 0 && H5Tset_size(type, strlen(text) + 1) >= 0 &&
+                H5Tset_cset(type, H5T_CSET_UTF8) >= 0;
+    const hid_t set =
+        good ? H5Dcreate2(file, "study", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT) : -1;
+    good = set >= 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0;
+    if (set >= 0)
+        good &= H5Dclose(set) >= 0;
+    if (type >= 0)
+        H5Tclose(type);
+    if (space >= 0)
+        H5Sclose(space);
+    return good;
+}
+
+/// Some columns of a matrix as one dataset, [n] when there is one column.
+typedef struct dataset {
+    const rows* rows;
+    size_t first, count; ///< columns
+    const char *name, *unit, *meaning;
+} dataset;
+
+static bool write_columns(hid_t set, const dataset* d) {
+    const hsize_t shape[2] = {d->rows->count, d->rows->width ? d->rows->width : 1};
+    const hsize_t start[2] = {0, d->first}, block[2] = {d->rows->count, d->count};
+    const hid_t memory = H5Screate_simple(2, shape, NULL);
+    bool good = memory >= 0;
+    if (good && d->rows->count > 0)
+        good = H5Sselect_hyperslab(memory, H5S_SELECT_SET, start, NULL, block, NULL) >= 0 &&
+               H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, H5S_ALL, H5P_DEFAULT, d->rows->data) >= 0;
+    if (memory >= 0)
+        H5Sclose(memory);
+    return good && write_text(set, "unit", d->unit) && write_text(set, "meaning", d->meaning);
+}
+
+static bool write_dataset(hid_t file, hid_t links, const dataset* d) {
+    const hsize_t shape[2] = {d->rows->count, d->count};
+    const hid_t space = H5Screate_simple(d->count == 1 ? 1 : 2, shape, NULL);
+    const hid_t set = space < 0 ? -1
+                                : H5Dcreate2(file, d->name, H5T_IEEE_F64LE, space, links,
+                                             H5P_DEFAULT, H5P_DEFAULT);
+    bool good = set >= 0 && write_columns(set, d);
+    if (set >= 0)
+        good &= H5Dclose(set) >= 0;
+    if (space >= 0)
+        H5Sclose(space);
+    return good;
+}
+
+static bool write_bodies(const bt_history* h, hid_t file, hid_t links) {
+    static const struct {
+        const char *name, *unit, *meaning;
+        bool of_q;
+        size_t first, count;
+    } part[] = {
+        {"position_m", "m", "centre of mass: x, y, z", true, 0, 3},
+        {"attitude", "1", "Euler parameters e0, e1, e2, e3, body to deck", true, 3, 4},
+        {"velocity_mps", "m/s", "velocity of the centre of mass: x, y, z", false, 0, 3},
+        {"spin_radps", "rad/s", "angular velocity in body axes: x, y, z", false, 3, 3},
+    };
+    bool good = true;
+    for (size_t body = 0; body < BT_BODY_COUNT; ++body)
+        for (size_t k = 0; k < sizeof part / sizeof part[0]; ++k) {
+            char name[96];
+            snprintf(name, sizeof name, "bodies/%s/%s", bt_body_names[body], part[k].name);
+            const dataset d = {part[k].of_q ? &h->q : &h->v,
+                               part[k].first + (part[k].of_q ? 7 : 6) * body,
+                               part[k].count,
+                               name,
+                               part[k].unit,
+                               part[k].meaning};
+            good = good && write_dataset(file, links, &d);
+        }
+    return good;
+}
+
+static bool write_cable(const bt_history* h, hid_t file, hid_t links) {
+    const dataset all[] = {
+        {&h->cable_time, 0, 1, "cable/time_s", "s", "time since the first contact with the deck"},
+        {&h->cable_x, 0, h->cable_x.width, "cable/x_m", "m", "centres of the segments, forward"},
+        {&h->cable_y, 0, h->cable_y.width, "cable/y_m", "m", "centres of the segments, to port"},
+        {&h->cable_z, 0, h->cable_z.width, "cable/z_m", "m", "centres of the segments, up"},
+        {&h->cable_tension, 0, h->cable_tension.width, "cable/tension_N", "N",
+         "tension between neighbouring segments"},
+    };
+    bool good = true;
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)
+        if (all[i].rows->count > 0)
+            good = good && write_dataset(file, links, &all[i]);
+    return good;
+}
+
+static bool write_all(const bt_history* h, hid_t file, const bt_study* study,
+                      const bt_landing_result* result) {
+    const hid_t links = H5Pcreate(H5P_LINK_CREATE);
+    bool good = links >= 0 && H5Pset_create_intermediate_group(links, 1) >= 0;
+    good = good && write_text(file, "outcome", bt_outcome_name(result->outcome)) &&
+           write_text(file, "mode", bt_mode_name(result->mode)) &&
+           write_text(file, "title", study->title) && write_study(file, study->text);
+    for (int i = 0; i < CHANNEL_COUNT; ++i) {
+        const dataset d = {
+            &h->channel[i],     0, (size_t)channels[i].count, channels[i].name, channels[i].unit,
+            channels[i].meaning};
+        good = good && write_dataset(file, links, &d);
+    }
+    good = good && write_bodies(h, file, links) && write_cable(h, file, links);
+    if (links >= 0)
+        H5Pclose(links);
+    return good;
+}
+
+bt_status bt_history_write(const bt_history* history, const char* path, const bt_study* study,
+                           const bt_landing_result* result, bt_diag* diag) {
+    if (history->out_of_memory)
+        return BT_ERR_MEMORY;
+    char temporary[4352];
+    const int length = snprintf(temporary, sizeof temporary, "%s.%ld.new", path, (long)getpid());
+    if (length < 0 || (size_t)length >= sizeof temporary)
+        return BT_ERR_ARG;
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* errors are ours to report */
+    errno = 0;
+    const hid_t file = H5Fcreate(temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    bool good = file >= 0 && write_all(history, file, study, result);
+    if (file >= 0)
+        good &= H5Fclose(file) >= 0;
+    if (good && rename(temporary, path) == 0)
+        return BT_OK;
+    const int code = errno;
+    unlink(temporary);
+    bt_diag_add(diag, BT_ERROR, (bt_where){.file = path}, "cannot write the time histories: %s",
+                code ? strerror(code) : "HDF5 error");
+    return BT_ERR_IO;
+}
