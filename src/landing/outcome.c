@@ -35,6 +35,9 @@ static void close_bounce(bt_tracker* tracker, bt_landing_result* result, bool co
 
 void bt_tracker_deck(bt_tracker* tracker, bt_landing_result* result, double shoe_x_m,
                      double height_m, double force_N) {
+    result->hook_deck_force_peak_N = fmax(result->hook_deck_force_peak_N, force_N);
+    if (!isnan(tracker->first_contact_s))
+        return; // what the cable does to the hook is no bounce
     tracker->last_x_m = shoe_x_m;
     if (force_N > 0) {
         if (tracker->airborne)
@@ -44,7 +47,6 @@ void bt_tracker_deck(bt_tracker* tracker, bt_landing_result* result, double shoe
         tracker->leave_x_m = shoe_x_m;
         tracker->top_m = 0;
         tracker->impact_peak_N = fmax(tracker->impact_peak_N, force_N);
-        result->hook_deck_force_peak_N = fmax(result->hook_deck_force_peak_N, force_N);
     } else if (tracker->touched) {
         tracker->airborne = true;
         tracker->top_m = fmax(tracker->top_m, height_m);
