@@ -8,43 +8,59 @@
 enum { BT_INPUT_MAX = 32, BT_CONDITION_MAX = 64, BT_PATH_MAX = 128 };
 
 extern const char* const bt_design_names[]; ///< sobol, latin_hypercube, full_factorial, monte_carlo
-enum { BT_DESIGN_SOBOL, BT_DESIGN_LATIN_HYPERCUBE, BT_DESIGN_FULL_FACTORIAL, BT_DESIGN_MONTE_CARLO };
+enum {
+    BT_DESIGN_SOBOL,
+    BT_DESIGN_LATIN_HYPERCUBE,
+    BT_DESIGN_FULL_FACTORIAL,
+    BT_DESIGN_MONTE_CARLO
+};
 
 #define BT_CAMPAIGN_FIELDS(F)                                                                      \
-    F(CHOICE, design, bt_design_names, OPTIONAL, 0, 0, 0, "Sec. 5.2", "design of experiments over the box of `bounds` (monte_carlo: over the distributions)") \
-    F(COUNT, samples, _, OPTIONAL, 4096, 1, 1e9, "Sec. 5.2", "number of landings; the paper ran 42,000") \
-    F(COUNT, seed, _, OPTIONAL, 1, 0, 9e15, "", "key of all random numbers of the study") \
-    F(COUNT, threads, _, OPTIONAL, 0, 0, 4096, "", "threads; 0 for one per core. Never changes a result") \
-    F(PLAIN, max_failed, _, OPTIONAL, 0.01, 0, 1, "", "share of failed runs above which the campaign is in error")
+    F(CHOICE, design, bt_design_names, OPTIONAL, 0, 0, 0, "Sec. 5.2",                              \
+      "design of experiments over the box of `bounds` (monte_carlo: over the distributions)")      \
+    F(COUNT, samples, _, OPTIONAL, 4096, 1, 1e9, "Sec. 5.2",                                       \
+      "number of landings; the paper ran 42,000")                                                  \
+    F(COUNT, seed, _, OPTIONAL, 1, 0, 9e15, "", "key of all random numbers of the study")          \
+    F(COUNT, threads, _, OPTIONAL, 0, 0, 4096, "",                                                 \
+      "threads; 0 for one per core. Never changes a result")                                       \
+    F(PLAIN, max_failed, _, OPTIONAL, 0.01, 0, 1, "",                                              \
+      "share of failed runs above which the campaign is in error")
 BT_DECLARE_GROUP(campaign, BT_CAMPAIGN_FIELDS)
 
 #define BT_SURROGATE_FIELDS(F)                                                                     \
-    F(LIST, C, 1, OPTIONAL, 0, 1e-6, 1e12, "Eq. 19", "penalties tried by cross-validation; default 10^0..10^5") \
-    F(LIST, gamma, 1, OPTIONAL, 0, 1e-6, 1e6, "Eq. 20", "kernel widths tried by cross-validation; default 0.1..10, on standardised inputs") \
-    F(COUNT, folds, _, OPTIONAL, 5, 2, 100, "Sec. 5.2", "folds of the cross-validation") \
-    F(PLAIN, holdout, _, OPTIONAL, 0.2, 0.01, 0.9, "", "share of the landings kept out of training to measure the accuracy on")
+    F(LIST, C, 1, OPTIONAL, 0, 1e-6, 1e12, "Eq. 19",                                               \
+      "penalties tried by cross-validation; default 10^0..10^5")                                   \
+    F(LIST, gamma, 1, OPTIONAL, 0, 1e-6, 1e6, "Eq. 20",                                            \
+      "kernel widths tried by cross-validation; default 0.1..10, on standardised inputs")          \
+    F(COUNT, folds, _, OPTIONAL, 5, 2, 100, "Sec. 5.2", "folds of the cross-validation")           \
+    F(PLAIN, holdout, _, OPTIONAL, 0.2, 0.01, 0.9, "",                                             \
+      "share of the landings kept out of training to measure the accuracy on")
 BT_DECLARE_GROUP(surrogate, BT_SURROGATE_FIELDS)
 
 extern const char* const bt_others_names[]; ///< scatter, frozen
 enum { BT_OTHERS_SCATTER, BT_OTHERS_FROZEN };
 
 #define BT_RELIABILITY_FIELDS(F)                                                                   \
-    F(COUNT, samples, _, OPTIONAL, 1000000, 100, 1e10, "Sec. 5.3", "points per condition on the surrogate") \
-    F(COUNT, truth_runs, _, OPTIONAL, 200, 0, 1e9, "", "fresh simulated landings per condition that check and correct the surrogate") \
-    F(CHOICE, others, bt_others_names, OPTIONAL, 0, 0, 0, "Sec. 5.3", "what the other inputs do in a condition: scatter about their means, or stay frozen at them") \
+    F(COUNT, samples, _, OPTIONAL, 1000000, 100, 1e10, "Sec. 5.3",                                 \
+      "points per condition on the surrogate")                                                     \
+    F(COUNT, truth_runs, _, OPTIONAL, 200, 0, 1e9, "",                                             \
+      "fresh simulated landings per condition that check and correct the surrogate")               \
+    F(CHOICE, others, bt_others_names, OPTIONAL, 0, 0, 0, "Sec. 5.3",                              \
+      "what the other inputs do in a condition: scatter about their means, or stay frozen at "     \
+      "them")                                                                                      \
     F(COUNT, seed, _, OPTIONAL, 2, 0, 9e15, "", "key of the random numbers of the analysis")
 BT_DECLARE_GROUP(reliability, BT_RELIABILITY_FIELDS)
 
 /// One random input, or one axis of the design.
 typedef struct bt_input {
-    char path[BT_PATH_MAX];   ///< "landing.sink_speed"
-    const bt_field* field;    ///< its row
-    size_t offset;            ///< in bt_model_params
-    bool random;              ///< has a distribution (uncertainty)
+    char path[BT_PATH_MAX]; ///< "landing.sink_speed"
+    const bt_field* field;  ///< its row
+    size_t offset;          ///< in bt_model_params
+    bool random;            ///< has a distribution (uncertainty)
     bt_distribution distribution;
-    bool bounded;             ///< is an axis of the design (campaign.bounds)
-    double lower, upper;      ///< SI; the box of the design
-    int levels;               ///< full_factorial: points along this axis (0: left to the design)
+    bool bounded;        ///< is an axis of the design (campaign.bounds)
+    double lower, upper; ///< SI; the box of the design
+    int levels;          ///< full_factorial: points along this axis (0: left to the design)
     bt_where where;
 } bt_input;
 
@@ -55,19 +71,22 @@ typedef struct bt_condition {
 } bt_condition;
 
 typedef struct bt_study {
-    char title[256];
+    char title[256]; ///< the file's name when it gives none
     bt_model_params model;
     bt_campaign_params campaign;
     bt_surrogate_params surrogate;
     bt_reliability_params reliability;
     int input_count;
-    bt_input inputs[BT_INPUT_MAX];
+    bt_input inputs[BT_INPUT_MAX]; ///< in the order of the model's tables
     int condition_count;
     bt_condition conditions[BT_CONDITION_MAX];
-    char* text;         ///< the study as one file: aircraft and deck included, --set applied
-    uint64_t hash;      ///< of what a campaign's runs depend on: model, inputs and their bounds,
-                        ///< design, samples, seed; not of threads, comments or later chapters
+    char* text;           ///< the study as one file: aircraft and deck included, --set applied,
+                          ///< every key with the value used, in SI; reads back to the same bits
+    uint64_t hash;        ///< of what a campaign's runs depend on: model, axes and their bounds (or
+                          ///< distributions), design, seed; not of the number of samples (a
+                          ///< campaign may grow), threads, comments or later chapters
     char directory[4096]; ///< the study directory: -o, or the file's name without .yaml beside it
+    struct bt_node* places; ///< owns the file names of `where`
 } bt_study;
 
 /// Reads, checks and converts a study file with its --set overrides. All errors are collected
@@ -76,6 +95,12 @@ typedef struct bt_study {
 BT_CHECKED bt_status bt_study_read(const char* path, const char* const* sets, int set_count,
                                    bt_study* study, bt_diag* diag);
 void bt_study_destroy(bt_study* study);
+
+/// The same for a text in memory; `name` is its name in messages. Other files cannot be named in
+/// it (BT_ERR_INPUT).
+BT_CHECKED bt_status bt_study_read_text(const char* name, const char* text, size_t size,
+                                        const char* const* sets, int set_count, bt_study* study,
+                                        bt_diag* diag);
 
 /// The reference of every key, or a complete commented study with every default.
 /// `write` receives the text in pieces.
