@@ -42,6 +42,7 @@ typedef struct run {
     double clearance_m[BT_LEG_COUNT + 1]; ///< of wheels and hook from the cable; last: the hook
     double tension_N[BT_CABLE_SEGMENTS_MAX];
     bool awake;     ///< the cable has left its equilibrium
+    bool loaded;    ///< wheels or hook have put loads on the cable
     bool hook_near; ///< the hook may have touched the cable in this step
     bt_failure failure;
 } run;
@@ -239,7 +240,9 @@ static void step_cable(run* r, double step_s) {
     const int count = (int)ceil(step_s / stable_s);
     const double sub_s = step_s / count;
     for (int k = 0; k < count; ++k) {
-        bt_cable_clear_loads(&l->cable_model, &l->cable);
+        if (r->loaded)
+            bt_cable_clear_loads(&l->cable_model, &l->cable);
+        r->loaded = any;
         for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
             if (near[leg]) {
                 bt_moving_body_to(&r->wheel[leg], k * sub_s);
