@@ -78,7 +78,7 @@ void bt_surrogate_print(FILE* out, const bt_surrogate* s) {
         out,
         "hold-out      %.2f %% of %d landings it never saw right, 95 %% interval %.2f .. %.2f %%\n",
         100 * bt_surrogate_holdout_accuracy(scores), scores->holdout_count,
-        100 * scores->holdout_ci95.lower, 100 * scores->holdout_ci95.upper);
+        100 * scores->holdout_ci95.least, 100 * scores->holdout_ci95.greatest);
     fprintf(out, "training      %.2f %% of %d (its own points: no evidence of accuracy)\n",
             100 * bt_surrogate_train_accuracy(scores), scores->train_count);
     fprintf(out,
@@ -97,8 +97,8 @@ static void write_json(const bt_surrogate* s) {
     bt_json_number(&json, "holdout_accuracy", bt_surrogate_holdout_accuracy(scores));
     bt_json_integer(&json, "holdout_n", scores->holdout_count);
     bt_json_begin_array(&json, "holdout_ci95");
-    bt_json_number(&json, NULL, scores->holdout_ci95.lower);
-    bt_json_number(&json, NULL, scores->holdout_ci95.upper);
+    bt_json_number(&json, NULL, scores->holdout_ci95.least);
+    bt_json_number(&json, NULL, scores->holdout_ci95.greatest);
     bt_json_end_array(&json);
     bt_json_begin_object(&json, "confusion");
     bt_json_integer(&json, "engaged_engaged", scores->confusion[1][1]);

@@ -1,0 +1,49 @@
+#include "cli/chain.h"
+
+#include <stdio.h>
+
+static bt_status run_chain(bt_chain* chain) {
+    const bool talk = !chain->command->quiet && !chain->command->json;
+    bt_campaign_progress progress;
+    BT_TRY(bt_chain_campaign(chain, 0, 1, &progress));
+
+    bt_surrogate surrogate;
+    bool fresh = false;
+    BT_TRY(bt_chain_fit(chain, false, &surrogate, &fresh));
+    if (talk) {
+        printf("campaign      %lld landings: %lld engaged, %lld missed, %lld failed\n",
+               (long long)progress.done, (long long)progress.engaged, (long long)progress.missed,
+               (long long)progress.failed);
+        bt_surrogate_print(stdout, &surrogate);
+        printf("\n");
+        fflush(stdout);
+    }
+    const bt_status status = bt_chain_reliability(chain, false, &surrogate);
+    bt_surrogate_destroy(&surrogate);
+    if (status == BT_OK && talk)
+        printf("\nresults in %s\n", chain->study.directory);
+    return status;
+}
+
+static bt_status run(const bt_command* command) {
+    bt_chain chain;
+    bt_status status = bt_chain_open(command, BT_LEDGER_CREATE, &chain);
+    if (status == BT_OK)
+        status = run_chain(&chain);
+    bt_chain_close(&chain);
+    return status;
+}
+
+const bt_verb bt_verb_study = {
+    .name = "study",
+    .summary = "all of it in order: campaign, fit, reliability",
+    .arguments = "STUDY.yaml",
+    .text = "Runs the landings of the design, trains the surrogate on them, and prints the "
+            "reliability of every condition with its interval. What is up to date is not done "
+            "again, so a study that was interrupted goes on where it stopped. Everything is kept "
+            "in the study directory: study.yaml, campaign.sqlite, surrogate.model, "
+            "reliability.json.",
+    .least_words = 1,
+    .most_words = 1,
+    .run = run,
+};
