@@ -82,6 +82,32 @@ static int mesh_half(const bt_cable_mesh_params* mesh, double half_span, double*
     return count;
 }
 
+/// Stretches the pieces of one half so that a joint lies at every support: a kink over a support is
+/// then exact, however long the segments are.
+static void snap_to_supports(const bt_list* y, int count, double* length) {
+    int first = 0;
+    double from = 0; /* the joint reached so far */
+    for (int k = 0; k < y->count; ++k) {
+        if (!(y->value[k] > 0))
+            continue;
+        double sum = 0;
+        int last = first;
+        while (last < count - 1 && (last == first || from + sum + 0.5 * length[last] < y->value[k]))
+            sum += length[last++];
+        const double scale = (y->value[k] - from) / sum;
+        double rest = 0, rest_wanted = 0;
+        for (int i = last; i < count; ++i)
+            rest += length[i];
+        rest_wanted = rest + sum - (y->value[k] - from);
+        for (int i = first; i < last; ++i)
+            length[i] *= scale;
+        for (int i = last; i < count; ++i)
+            length[i] *= rest_wanted / rest;
+        first = last;
+        from = y->value[k];
+    }
+}
+
 static void check_cable(const void* params, const char* path, bt_diag* diag) {
     const bt_cable_params* p = params;
     const bt_cable_supports_params* s = &p->supports;
@@ -169,6 +195,7 @@ void bt_cable_def_init(bt_cable_def* def, const bt_cable_params* p, double gravi
     int half = mesh_half(&p->mesh, 0.5 * p->span_m, NULL);
     half = half < BT_CABLE_SEGMENTS_MAX / 2 ? half : BT_CABLE_SEGMENTS_MAX / 2;
     mesh_half(&p->mesh, 0.5 * p->span_m, length_m + half);
+    snap_to_supports(&def->support_y_m, half, length_m + half);
     for (int i = 0; i < half; ++i) {
         length_m[half + i] /= stretch;
         length_m[half - 1 - i] = length_m[half + i];
@@ -188,7 +215,7 @@ static int stride_of(int count) {
     return (vectors | 1) * BT_CABLE_LANES;
 }
 
-enum { MODEL_ARRAYS = 8, STATE_ARRAYS = 41 };
+enum { MODEL_ARRAYS = 8, STATE_ARRAYS = 42 };
 
 size_t bt_cable_memory(int count, int states) {
     const size_t array = (size_t)stride_of(count) * sizeof(double);
@@ -353,15 +380,17 @@ bt_status bt_cable_state_init(const bt_cable_model* model, bt_cable_state* state
     if (!state->block)
         return BT_ERR_MEMORY;
     double** members[STATE_ARRAYS] = {
-        &state->x,        &state->y,        &state->z,        &state->e0,       &state->e1,
-        &state->e2,       &state->e3,       &state->vx,       &state->vy,       &state->vz,
-        &state->hx,       &state->hy,       &state->hz,       &state->wx,       &state->wy,
-        &state->wz,       &state->tx,       &state->ty,       &state->tz,       &state->fx,
-        &state->fy,       &state->fz,       &state->mx,       &state->my,       &state->mz,
-        &state->joint_fx, &state->joint_fy, &state->joint_fz, &state->before_x, &state->before_y,
-        &state->before_z, &state->after_x,  &state->after_y,  &state->after_z,  &state->support_fz,
-        &state->net[0],   &state->net[1],   &state->net[2],   &state->net[3],   &state->net[4],
-        &state->net[5],
+        &state->x,        &state->y,        &state->z,          &state->e0,
+        &state->e1,       &state->e2,       &state->e3,         &state->vx,
+        &state->vy,       &state->vz,       &state->hx,         &state->hy,
+        &state->hz,       &state->wx,       &state->wy,         &state->wz,
+        &state->tx,       &state->ty,       &state->tz,         &state->fx,
+        &state->fy,       &state->fz,       &state->mx,         &state->my,
+        &state->mz,       &state->joint_fx, &state->joint_fy,   &state->joint_fz,
+        &state->before_x, &state->before_y, &state->before_z,   &state->after_x,
+        &state->after_y,  &state->after_z,  &state->support_fz, &state->support_mx,
+        &state->net[0],   &state->net[1],   &state->net[2],     &state->net[3],
+        &state->net[4],   &state->net[5],
     };
     for (int k = 0; k < STATE_ARRAYS; ++k)
         *members[k] = state->block + (size_t)k * (size_t)model->stride;

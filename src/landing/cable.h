@@ -35,7 +35,7 @@ BT_DECLARE_GROUP(cable_mesh, BT_CABLE_MESH_FIELDS)
 BT_DECLARE_GROUP(cable_supports, BT_CABLE_SUPPORTS_FIELDS)
 
 #define BT_CABLE_DECK_FIELDS(F)                                                                    \
-    F(REAL, stiffness, Npm2, OPTIONAL, 5e9, 1e6, 1e12, "", "deck contact: force per metre of cable and metre of penetration [assumed]") \
+    F(REAL, stiffness, Npm2, OPTIONAL, 2e9, 1e6, 1e12, "", "deck contact: force per metre of cable and metre of penetration [assumed]") \
     F(PLAIN, restitution, _, OPTIONAL, 0.3, 0.02, 1, "", "rebound over impact speed of a piece of cable on the deck [assumed]") \
     F(PLAIN, friction, _, OPTIONAL, 0.3, 0, 2, "", "Coulomb friction, cable on deck [assumed]") \
     F(REAL, slip_speed, mps, OPTIONAL, 0.1, 1e-4, 10, "", "sliding speed at which friction reaches 0.71 of its value [assumed]")
@@ -55,7 +55,7 @@ BT_DECLARE_GROUP(cable_sheaves, BT_CABLE_SHEAVES_FIELDS)
     F(REAL, bending_stiffness, Nm2, OPTIONAL, 150, 0, 1e5, "Eq. 14", "K0 bending: EI") \
     F(REAL, twist_stiffness, Nm2, OPTIONAL, 60, 0, 1e5, "Eq. 16", "K0 twist: GJ") \
     F(REAL, axial_damping, Ns, OPTIONAL, 80, 0, 1e5, "Eq. 13", "C0 axial; the step pays for more than 80 N s at 0.05 m segments [assumed]") \
-    F(REAL, bending_damping, Nm2s, OPTIONAL, 0.08, 0, 100, "Eq. 15", "C0 bending [assumed]") \
+    F(REAL, bending_damping, Nm2s, OPTIONAL, 0.03, 0, 100, "Eq. 15", "C0 bending; the step pays for more at short segments [assumed]") \
     F(REAL, twist_damping, Nm2s, OPTIONAL, 0.03, 0, 100, "Eq. 17", "C0 twist [assumed]") \
     F(PLAIN, shear_ratio, _, OPTIONAL, 0.3333333333333333, 0.01, 0.6, "", "shear over axial stiffness and damping of a joint; not in the paper [assumed]") \
     F(PLAIN, compression_ratio, _, OPTIONAL, 0.01, 0, 1, "", "stiffness in compression over that in tension: a rope does not push [assumed]") \
@@ -156,7 +156,7 @@ typedef struct bt_cable_state {
     double *joint_fx, *joint_fy, *joint_fz; ///< [joint] force on the segment before the joint, N
     double *before_x, *before_y, *before_z; ///< [joint] torque on the segment before the joint
     double *after_x, *after_y, *after_z;    ///< [joint] torque on the segment after it
-    double* support_fz;                     ///< force of the wire supports, N
+    double *support_fz, *support_mx;        ///< force of the wire supports, N, and its torque, N m
     double* net[6];                         ///< scratch: resultant force and torque
     struct bt_cable_scalars {
         double time_s, last_step_s;
@@ -233,9 +233,10 @@ bool bt_cable_is_finite(const bt_cable_model* model, const bt_cable_state* state
 int bt_cable_segment_at(const bt_cable_model* model, const bt_cable_state* state, double y_m,
                         int hint);
 
-/// Centreline where it passes y: linear between the centres of neighbouring segments, so it is
-/// continuous along y. velocity and direction (unit, toward +y) may be NULL.
-/// Returns the first of the two segments, -1 beyond the outermost centres.
+/// Centreline where it passes y: the line of the segment there; around a joint the lines of both
+/// segments, shared so that it is continuous along y. Velocity (of the material there) and
+/// direction (unit, toward +y) may be NULL.
+/// Returns the first of the two segments nearest to y, -1 beyond the outermost centres.
 int bt_cable_centreline(const bt_cable_model* model, const bt_cable_state* state, double y_m,
                         int hint, double position_m[3], double velocity_mps[3],
                         double direction[3]);

@@ -115,7 +115,8 @@ void LEVEL(bt_cable_resultants)(const bt_cable_model* model, bt_cable_state* sta
         s->net[1][i] = (s->joint_fy[j] - s->joint_fy[i]) + (s->fy[i] - drag * sy);
         s->net[2][i] = (s->joint_fz[j] - s->joint_fz[i]) +
                        ((s->fz[i] + s->support_fz[i]) + (normal - gravity * model->mass_kg[i]));
-        s->net[3][i] = (s->before_x[j] + s->after_x[i]) + (s->mx[i] - law.radius * (drag * sy));
+        s->net[3][i] = (s->before_x[j] + s->after_x[i]) +
+                       ((s->mx[i] + s->support_mx[i]) - law.radius * (drag * sy));
         s->net[4][i] = (s->before_y[j] + s->after_y[i]) + (s->my[i] + law.radius * (drag * sx));
         s->net[5][i] = (s->before_z[j] + s->after_z[i]) + s->mz[i];
     }
@@ -148,7 +149,7 @@ void LEVEL(bt_cable_advance)(const bt_cable_model* model, bt_cable_state* state,
                  *restrict bz = state->before_z;
     const double *restrict ax = state->after_x, *restrict ay = state->after_y,
                  *restrict az = state->after_z;
-    const double* restrict support = state->support_fz;
+    const double* restrict support = state->support_fz, * restrict support_turn = state->support_mx;
     const int count = model->padded;
 #pragma GCC ivdep
     for (int i = 0; i < count; ++i) {
@@ -164,7 +165,7 @@ void LEVEL(bt_cable_advance)(const bt_cable_model* model, bt_cable_state* state,
         const double netx = (gx[j] - gx[i]) + (fx[i] - dragx);
         const double nety = (gy[j] - gy[i]) + (fy[i] - dragy);
         const double netz = (gz[j] - gz[i]) + ((fz[i] + support[i]) + (normal - gravity * mass[i]));
-        const double torx = (bx[j] + ax[i]) + (mx[i] - law.radius * dragy);
+        const double torx = (bx[j] + ax[i]) + ((mx[i] + support_turn[i]) - law.radius * dragy);
         const double tory = (by[j] + ay[i]) + (my[i] + law.radius * dragx);
         const double torz = (bz[j] + az[i]) + mz[i];
         /* velocities */

@@ -152,32 +152,71 @@ static int bracket(const bt_cable_model* model, const bt_cable_state* s, double 
     return y >= s->y[i] && y <= s->y[i + 1] ? i : -1;
 }
 
-/// One-sided spring and damper under the cable, shared by the two nearest segments in proportion,
-/// so that nothing jumps when the cable slides along y.
+/// Where the rope passes y: the lines of two neighbouring segments, shared.
+typedef struct passage {
+    int segment;        ///< the first of the two; -1 beyond the outermost centres
+    double share[2];    ///< of the two segments, together 1
+    double point[2][3]; ///< each segment's line at y
+    double rate[2][3];  ///< velocity of the material point there
+} passage;
+
+/// Each line holds up to the joint between the two; the share goes from one to the other over the
+/// middle half of the way, so that nothing jumps when the rope slides along y.
+static passage pass(const bt_cable_model* model, const bt_cable_state* s, double y, int hint) {
+    passage p = {.segment = bracket(model, s, y, hint)};
+    if (p.segment < 0)
+        return p;
+    for (int k = 0; k < 2; ++k) {
+        const int i = p.segment + k;
+        const double t[3] = {s->tx[i], s->ty[i], s->tz[i]};
+        const double w[3] = {s->wx[i], s->wy[i], s->wz[i]};
+        const double far = (y - s->y[i]) / fmax(t[1], 0.1);
+        const double arm[3] = {far * t[0], far * t[1], far * t[2]};
+        double turn[3];
+        bt_cross(w, arm, turn);
+        p.point[k][0] = s->x[i] + arm[0];
+        p.point[k][1] = y;
+        p.point[k][2] = s->z[i] + arm[2];
+        p.rate[k][0] = s->vx[i] + turn[0];
+        p.rate[k][1] = s->vy[i] + turn[1];
+        p.rate[k][2] = s->vz[i] + turn[2];
+    }
+    const int i = p.segment, j = i + 1;
+    const double before = y - (s->y[i] + model->half_m[i] * s->ty[i]);
+    const double after = (s->y[j] - model->half_m[j] * s->ty[j]) - y;
+    const double width = 0.5 * (model->half_m[i] * s->ty[i] + model->half_m[j] * s->ty[j]);
+    const double balance = fmin(fmax(0.5 * (before - after) / width, -0.5), 0.5);
+    p.share[0] = 0.5 - balance;
+    p.share[1] = 0.5 + balance;
+    return p;
+}
+
+/// One-sided spring and damper under the cable where it passes each support.
 void bt_cable_supports(const bt_cable_model* model, bt_cable_state* s) {
     const bt_cable_def* d = &model->def;
     struct bt_cable_scalars* scalars = s->scalars;
     for (int k = 0; k < d->support_y_m.count; ++k)
-        if (scalars->support_at[k] >= 0)
-            s->support_fz[scalars->support_at[k]] = s->support_fz[scalars->support_at[k] + 1] = 0;
+        for (int side = 0; side < 2 && scalars->support_at[k] >= 0; ++side)
+            s->support_fz[scalars->support_at[k] + side] =
+                s->support_mx[scalars->support_at[k] + side] = 0;
     for (int k = 0; k < d->support_y_m.count; ++k) {
-        const int i = bracket(model, s, d->support_y_m.value[k], scalars->support_at[k]);
-        scalars->support_at[k] = i;
+        const passage p = pass(model, s, d->support_y_m.value[k], scalars->support_at[k]);
+        scalars->support_at[k] = p.segment;
         scalars->support_force_N[k] = 0;
-        if (i < 0)
+        if (p.segment < 0)
             continue;
-        const double gap = s->y[i + 1] - s->y[i];
-        const double w = (d->support_y_m.value[k] - s->y[i]) / gap;
-        const double u = (s->y[i + 1] - d->support_y_m.value[k]) / gap;
-        const double depth =
-            d->support.height_m + model->radius_m - (u * s->z[i] + w * s->z[i + 1]);
-        const double rate = u * s->vz[i] + w * s->vz[i + 1];
+        const double height = p.share[0] * p.point[0][2] + p.share[1] * p.point[1][2];
+        const double rate = p.share[0] * p.rate[0][2] + p.share[1] * p.rate[1][2];
+        const double depth = d->support.height_m + model->radius_m - height;
         const double force = d->support.stiffness_Npm * depth - d->support.damping_Npmps * rate;
         if (!(depth > 0 && force > 0))
             continue;
         scalars->support_force_N[k] = force;
-        s->support_fz[i] += u * force;
-        s->support_fz[i + 1] += w * force;
+        for (int side = 0; side < 2; ++side) {
+            const int i = p.segment + side;
+            s->support_fz[i] += p.share[side] * force;
+            s->support_mx[i] += p.share[side] * force * (p.point[side][1] - s->y[i]);
+        }
     }
 }
 
@@ -236,24 +275,22 @@ int bt_cable_segment_at(const bt_cable_model* model, const bt_cable_state* s, do
 
 int bt_cable_centreline(const bt_cable_model* model, const bt_cable_state* s, double y_m, int hint,
                         double position_m[3], double velocity_mps[3], double direction[3]) {
-    const int i = bracket(model, s, y_m, hint);
-    if (i < 0)
+    const passage p = pass(model, s, y_m, hint);
+    if (p.segment < 0)
         return -1;
-    const double gap = s->y[i + 1] - s->y[i];
-    const double w = (y_m - s->y[i]) / gap, u = (s->y[i + 1] - y_m) / gap;
-    position_m[0] = u * s->x[i] + w * s->x[i + 1];
-    position_m[1] = y_m;
-    position_m[2] = u * s->z[i] + w * s->z[i + 1];
-    if (velocity_mps) {
-        velocity_mps[0] = u * s->vx[i] + w * s->vx[i + 1];
-        velocity_mps[1] = u * s->vy[i] + w * s->vy[i + 1];
-        velocity_mps[2] = u * s->vz[i] + w * s->vz[i + 1];
+    const int i = p.segment, j = i + 1;
+    for (int k = 0; k < 3; ++k) {
+        position_m[k] = p.share[0] * p.point[0][k] + p.share[1] * p.point[1][k];
+        if (velocity_mps)
+            velocity_mps[k] = p.share[0] * p.rate[0][k] + p.share[1] * p.rate[1][k];
     }
     if (direction) {
-        const double d[3] = {s->x[i + 1] - s->x[i], gap, s->z[i + 1] - s->z[i]};
-        const double length = bt_norm(d);
+        const double t[3] = {p.share[0] * s->tx[i] + p.share[1] * s->tx[j],
+                             p.share[0] * s->ty[i] + p.share[1] * s->ty[j],
+                             p.share[0] * s->tz[i] + p.share[1] * s->tz[j]};
+        const double size = bt_norm(t);
         for (int k = 0; k < 3; ++k)
-            direction[k] = d[k] / length;
+            direction[k] = t[k] / size;
     }
     return i;
 }
