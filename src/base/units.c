@@ -79,7 +79,7 @@ static const unit_symbol symbols[] = {
 };
 
 typedef struct unit_token {
-    const char* token; ///< as in member names: p for "per", digits are exponents
+    const char* token; ///< as in member names: p for "per", digits are exponents, 15 is 1.5
     const char* text;  ///< SI, as people write it; its dimension is the token's
     const char* use;   ///< what a message proposes
 } unit_token;
@@ -108,7 +108,7 @@ static const unit_token tokens[] = {
     {"Npm", "N/m", "N/m, kN/m, MN/m, N/mm, lbf/in or lbf/ft"},
     {"Npm2", "N/m^2", "N/m^2, kN/m^2, MN/m^2 or N/mm^2"},
     {"Npm3", "N/m^3", "N/m^3, kN/m^3 or MN/m^3"},
-    {"Npm1p5", "N/m^1.5", "N/m^1.5, kN/m^1.5 or N/mm^1.5"},
+    {"Npm15", "N/m^1.5", "N/m^1.5, kN/m^1.5 or N/mm^1.5"},
     {"Nspm", "N s/m", "N s/m, kN s/m or lbf s/ft"},
     {"Npmps", "N s/m", "N s/m, kN s/m or lbf s/ft"}, // N per m/s
     {"Nspm2", "N s/m^2", "N s/m^2 or kN s/m^2"},

@@ -19,7 +19,7 @@ static void write_value(FILE* out, const char* value, const bt_node* typed) {
     if (!typed)
         fputs("  # default", out);
     else if (!same && typed->kind == BT_NODE_SCALAR && !strpbrk(typed->text, "\r\n"))
-        fprintf(out, "  # %s", typed->text);
+        fprintf(out, "  # typed: %s", typed->text);
     fputc('\n', out);
 }
 

@@ -78,7 +78,7 @@ static void every_unit_is_one_exact_factor(void** state) {
         {"20 MN/m", "Npm", 2e7},
         {"5e8 N/m^2", "Npm2", 5e8},
         {"1 N/mm^2", "Npm2", 1e6},
-        {"2.63e9 N/m^1.5", "Npm1p5", 2.63e9},
+        {"2.63e9 N/m^1.5", "Npm15", 2.63e9},
         {"20 kN m", "Nm", 20000},
         {"20 kN m/rad", "Nmprad", 20000},
         {"800 N m s/rad", "Nmsprad", 800},
