@@ -1,0 +1,372 @@
+/// Waves on the cable against string, bar and beam theory, with convergence in segments and step.
+#include "test_cable_case.h"
+
+#include <stdio.h>
+
+#define PI 3.14159265358979323846
+
+enum { ALONG, ACROSS };
+
+/* Frequency of mode n of a rope pinned at both ends (length `length` when stretched by `tension`),
+   relative to `exact`, minus 1. Segments and rotations start in the shape of the mode. */
+static double mode_error(bt_cable_def def, double length, double tension, int n, int direction,
+                         double exact_Hz, double courant) {
+    const double unstretched = length / (1 + tension / def.axial_stiffness_N);
+    def.end[0].kind = def.end[1].kind = BT_CABLE_PINNED;
+    def.end[1].anchor_m[1] = length;
+    rope r;
+    rope_open(&r, &def, unstretched);
+    bt_cable_state* s = &r.state;
+    const double k = n * PI / length, speed = 1e-5 * 2 * PI * exact_Hz;
+    for (int i = 0; i < def.count; ++i) {
+        const double y = r.model.rest_y_m[i];
+        if (direction == ALONG)
+            s->vy[i] = speed * sin(k * y);
+        else {
+            s->vz[i] = speed * sin(k * y);
+            s->wx[i] = speed * k * cos(k * y);
+            s->hx[i] = s->wx[i] / r.model.inverse_tilt[i];
+        }
+    }
+    const double step = courant * r.model.stable_step_s, period = 1 / exact_Hz;
+    double before = 0, now = 0, crossing = 0;
+    int crossings = 0;
+    const int wanted = 4; /* two periods */
+    for (int j = 1; crossings < wanted && j * step < 5 * period; ++j) {
+        rope_run(&r, 1, step);
+        before = now;
+        now = 0;
+        for (int i = 0; i < def.count; ++i)
+            now += (direction == ALONG ? s->y[i] - r.model.rest_y_m[i] : s->z[i]) *
+                   r.model.mass_kg[i] * sin(k * r.model.rest_y_m[i]);
+        if (j > 1 && (before > 0) != (now > 0)) {
+            crossing = step * (j - 1 + before / (before - now));
+            ++crossings;
+        }
+    }
+    assert_int_equal(crossings, wanted);
+    rope_close(&r);
+    return 0.5 * wanted / crossing / exact_Hz - 1;
+}
+
+static void string_frequencies_converge_to_fourth_order(void** state) {
+    (void)state;
+    const double length = 12, tension = 24e3, mu = 5.536;
+    for (int n = 1; n <= 10; n += 3) {
+        double error[3];
+        for (int k = 0; k < 3; ++k) {
+            bt_cable_def def = rope_def(30 << k, length);
+            def.bending_stiffness_Nm2 = 0;
+            def.diameter_m = 1e-3; /* no rotary inertia of its own */
+            const double stretch = 1 + tension / def.axial_stiffness_N;
+            const double exact = n / (2 * length) * sqrt(tension * stretch / mu);
+            error[k] = mode_error(def, length, tension, n, ACROSS, exact, 0.9);
+        }
+        print_message("string mode %d at 0.4, 0.2, 0.1 m: %.3g %.3g %.3g\n", n, error[0], error[1],
+                      error[2]);
+        assert_true(fabs(error[2]) < 1e-4);
+    }
+}
+
+static void tensioned_wire_frequencies_with_bending(void** state) {
+    (void)state;
+    const double length = 12, tension = 24e3, mu = 5.536;
+    for (int n = 1; n <= 16; n += 5) {
+        double error[3];
+        for (int k = 0; k < 3; ++k) {
+            bt_cable_def def = rope_def(60 << k, length);
+            def.diameter_m = 1e-3;
+            const double stretch = 1 + tension / def.axial_stiffness_N;
+            const double stiffening =
+                1 + n * n * PI * PI * def.bending_stiffness_Nm2 / (tension * length * length);
+            const double exact = n / (2 * length) * sqrt(tension * stretch / mu * stiffening);
+            error[k] = mode_error(def, length, tension, n, ACROSS, exact, 0.9);
+        }
+        print_message("wire mode %d at 0.2, 0.1, 0.05 m: %.3g %.3g %.3g\n", n, error[0], error[1],
+                      error[2]);
+        assert_true(fabs(error[2]) < 2e-4);
+    }
+}
+
+static void longitudinal_wave_speed_from_standing_waves(void** state) {
+    (void)state;
+    const double length = 12;
+    for (int n = 1; n <= 9; n += 4) {
+        double error[2];
+        for (int k = 0; k < 2; ++k) {
+            bt_cable_def def = rope_def(120 << k, length);
+            const double exact = n / (2 * length) * sqrt(def.axial_stiffness_N / def.mass_kgpm);
+            error[k] = mode_error(def, length, 100, n, ALONG, exact, 0.95);
+        }
+        print_message("axial mode %d at 0.1, 0.05 m: %.3g %.3g\n", n, error[0], error[1]);
+        assert_true(fabs(error[1]) < 1e-4);
+    }
+}
+
+/* ---- travelling waves ---- */
+
+/// Steps with the first end's anchor moving at a constant velocity.
+static void drive(rope* r, const double velocity[3], double duration, double step) {
+    bt_cable_state* s = &r->state;
+    const int steps = (int)lround(duration / step);
+    memcpy(s->scalars->anchor_velocity_mps[0], velocity, 3 * sizeof(double));
+    for (int j = 0; j < steps; ++j) {
+        rope_run(r, 1, step);
+        for (int k = 0; k < 3; ++k)
+            s->scalars->anchor_m[0][k] += step * velocity[k];
+    }
+}
+
+/// Mean tension of the joints whose straight position lies in low .. high.
+static double mean_tension(const rope* r, double low, double high) {
+    double sum = 0;
+    int count = 0;
+    for (int j = 1; j < r->model.count; ++j) {
+        const double y = r->model.rest_y_m[j] - r->model.half_m[j];
+        if (y < low || y > high)
+            continue;
+        sum += bt_cable_tension(&r->model, &r->state, j);
+        ++count;
+    }
+    assert_true(count > 0);
+    return sum / count;
+}
+
+/// Where the tension passes `level`, going out from the driven end.
+static double front_position(const rope* r, double level, double from) {
+    for (int j = r->model.count - 1; j > 1; --j) {
+        const double y = r->model.rest_y_m[j] - r->model.half_m[j];
+        if (y < from)
+            break;
+        const double inner = bt_cable_tension(&r->model, &r->state, j - 1);
+        const double outer = bt_cable_tension(&r->model, &r->state, j);
+        if (inner > level && outer <= level) {
+            const double gap = r->model.rest_y_m[j] - r->model.rest_y_m[j - 1];
+            return y - gap * (level - outer) / (inner - outer);
+        }
+    }
+    return NAN;
+}
+
+static void longitudinal_front_speed_force_and_reflection(void** state) {
+    (void)state;
+    const double length = 60, pull = -1.0; /* m/s, away from the rope */
+    for (int k = 0; k < 2; ++k) {
+        bt_cable_def def = rope_def(600 << k, length);
+        def.axial_damping_Ns = 80;
+        def.end[0].kind = def.end[1].kind = BT_CABLE_PINNED;
+        const double c = sqrt(def.axial_stiffness_N / def.mass_kgpm);
+        const double rise = def.mass_kgpm * c; /* rho A c V, V = 1 m/s */
+        rope r;
+        rope_open(&r, &def, length);
+        const double step = 0.95 * r.model.stable_step_s, velocity[3] = {0, pull, 0};
+        drive(&r, velocity, 0.006, step);
+        const double early = front_position(&r, 0.5 * rise, 1), t0 = r.state.scalars->time_s;
+        drive(&r, velocity, 0.010, step);
+        const double late = front_position(&r, 0.5 * rise, 1), t1 = r.state.scalars->time_s;
+        const double speed = (late - early) / (t1 - t0);
+        const double behind = mean_tension(&r, 5, late - 5);
+        print_message("front at %.3g m: speed %.5f c, tension %.5f mu c V\n", length / def.count,
+                      speed / c, behind / rise);
+        BT_ASSERT_NEAR(speed, c, 1e-3, 0);
+        BT_ASSERT_NEAR(behind, rise, 1e-3, 0);
+        /* damping makes an error function of the step: exp(-C0 k^2 t / 2 mu) per wave number,
+           variance C0 t / mu, 10 to 90 % over 2.5631 standard deviations */
+        const double width = front_position(&r, 0.1 * rise, 1) - front_position(&r, 0.9 * rise, 1);
+        const double spread = 2.5631 * sqrt(def.axial_damping_Ns * t1 / def.mass_kgpm);
+        print_message("front width %.4f m, by theory %.4f m\n", width, spread);
+        BT_ASSERT_NEAR(width, spread, 0.05, 0);
+        /* after length / c it comes back doubled */
+        drive(&r, velocity, 0.010, step);
+        const double back = 2 * length - c * r.state.scalars->time_s;
+        BT_ASSERT_NEAR(mean_tension(&r, back + 5, length - 1), 2 * rise, 1e-3, 0);
+        BT_ASSERT_NEAR(mean_tension(&r, 5, back - 5), rise, 1e-3, 0);
+        rope_close(&r);
+    }
+}
+
+static void free_end_reflects_a_pulse_with_opposite_sign(void** state) {
+    (void)state;
+    const int count = 800;
+    bt_cable_def def = rope_def(count, 40);
+    def.end[0].kind = BT_CABLE_PINNED;
+    rope r;
+    rope_open(&r, &def, 40);
+    const double c = sqrt(def.axial_stiffness_N / def.mass_kgpm),
+                 step = 0.95 * r.model.stable_step_s;
+    /* a smooth pulse on its way to the free end: v = -c e, e = A cos^2 over 4 m, centre 30 m */
+    const double peak = 1e-6;
+    double shift = 0;
+    for (int i = 0; i < count; ++i) {
+        const double u = r.model.rest_y_m[i] - 30;
+        const double strain = fabs(u) < 2 ? peak * pow(cos(PI * u / 4), 2) : 0;
+        const double before = shift;
+        shift += strain * 40 / count;
+        r.state.y[i] += 0.5 * (before + shift);
+        r.state.vy[i] = -c * strain;
+    }
+    double inward = 0;
+    const int steps = (int)lround(20 / c / step); /* 20 m later: 30 -> 40 -> 30 m */
+    rope_run(&r, steps, step);
+    int at = 0;
+    for (int j = 1; j < count; ++j)
+        if (bt_cable_tension(&r.model, &r.state, j) < inward) {
+            inward = bt_cable_tension(&r.model, &r.state, j);
+            at = j;
+        }
+    BT_ASSERT_NEAR(inward / (-peak * def.axial_stiffness_N), 1, 5e-3, 0);
+    BT_ASSERT_NEAR(at * 40.0 / count, 30, 0, 0.1);
+    rope_close(&r);
+}
+
+/* ---- transverse impact ---- */
+
+typedef struct impact {
+    double tension, kink_speed, angle;
+} impact;
+
+/* The first end of a long straight rope is driven across at v. Behind the kink the rope is straight
+   from (0, v t) to (w t, 0): w from the area under it, the angle from the segments' mean. */
+static impact strike(bt_cable_def def, double eps0, double v, double segment, double duration) {
+    const double c = sqrt(def.axial_stiffness_N / def.mass_kgpm);
+    const double length = ceil(1.05 * c * duration / segment) * segment;
+    def.count = (int)lround(length / segment);
+    def.end[0].kind = def.end[1].kind = BT_CABLE_PINNED;
+    def.end[1].anchor_m[1] = length * (1 + eps0);
+    rope r;
+    rope_open(&r, &def, length);
+    const double velocity[3] = {v, 0, 0};
+    drive(&r, velocity, duration, 0.95 * r.model.stable_step_s);
+    const double t = r.state.scalars->time_s;
+    const bt_cable_state* s = &r.state;
+    double area = 0, x = s->scalars->anchor_m[0][0], y = 0;
+    for (int j = 1; j < def.count; ++j) {
+        double at[3];
+        rope_joint(&r, j, at);
+        area += 0.5 * (x + at[0]) * (at[1] - y);
+        x = at[0];
+        y = at[1];
+    }
+    impact got = {.kink_speed = 2 * area / (v * t * t)};
+    double ahead = 0, along = 0;
+    for (int i = 0; i < def.count && s->y[i] < 0.9 * got.kink_speed * t; ++i)
+        if (s->y[i] > 0.1 * got.kink_speed * t) {
+            ahead -= s->tx[i];
+            along += s->ty[i];
+        }
+    got.angle = atan2(ahead, along) * 180 / PI;
+    got.tension = mean_tension(&r, 0.02 * c * t, 0.95 * c * t);
+    rope_close(&r);
+    return got;
+}
+
+static void check_impact(const char* name, impact got, double tension, double kink, double angle,
+                         double tolerance) {
+    print_message("%s: tension %.5g (%.5g), kink %.5g (%.5g), angle %.4g (%.4g)\n", name,
+                  got.tension, tension, got.kink_speed, kink, got.angle, angle);
+    BT_ASSERT_NEAR(got.tension, tension, tolerance, 0);
+    BT_ASSERT_NEAR(got.kink_speed, kink, tolerance, 0);
+    BT_ASSERT_NEAR(got.angle, angle, tolerance, 0);
+}
+
+/* Oblique-front theory (physics data 4.4): strain behind the longitudinal front from v. */
+static impact oblique_front(double c, double mu, double eps0, double v) {
+    double low = eps0, high = 1;
+    for (int k = 0; k < 200; ++k) {
+        const double e = 0.5 * (low + high), cbar = sqrt(e * (1 + e)), u = e - eps0;
+        if (c * c * (e * (1 + e) - (cbar - u) * (cbar - u)) < v * v)
+            low = e;
+        else
+            high = e;
+    }
+    const double e = low, kink = c * sqrt(e * (1 + e)) - c * (e - eps0);
+    return (impact){mu * c * c * e, kink, atan2(v, kink) * 180 / PI};
+}
+
+static void transverse_impact_of_the_arresting_cable(void** state) {
+    (void)state;
+    /* v; T kN, w, beta for T0 = 0; the same for T0 = 15.5 kN */
+    const double rows[6][7] = {
+        {5, 6.3, 33.3, 8.5, 19.1, 58.5, 4.9},
+        {10, 15.8, 52.6, 10.8, 27.5, 69.8, 8.2},
+        {20, 40.1, 82.7, 13.6, 50.9, 93.8, 12.0},
+        {31, 72.1, 109.9, 15.8, 82.6, 118.3, 14.7},
+        {47.5, 127.8, 144.5, 18.2, 138.2, 150.9, 17.5},
+        {66.9, 202.6, 179.6, 20.4, 212.8, 184.7, 19.9},
+    };
+    for (int tight = 0; tight < 2; ++tight)
+        for (int k = 0; k < 6; ++k) {
+            bt_cable_def def = rope_def(2, 1);
+            def.axial_damping_Ns = 80;
+            def.bending_stiffness_Nm2 = tight ? 150 : 0;
+            def.compression_ratio = 0.01;
+            const double eps0 = tight ? 15500 / def.axial_stiffness_N : 0;
+            const double c = sqrt(def.axial_stiffness_N / def.mass_kgpm);
+            const impact want = oblique_front(c, def.mass_kgpm, eps0, rows[k][0]);
+            /* the theory as coded here gives the published digits */
+            BT_ASSERT_NEAR(want.tension, 1e3 * rows[k][1 + 3 * tight], 0, 51);
+            BT_ASSERT_NEAR(want.kink_speed, rows[k][2 + 3 * tight], 0, 0.051);
+            BT_ASSERT_NEAR(want.angle, rows[k][3 + 3 * tight], 0, 0.051);
+            const impact got = strike(def, eps0, rows[k][0], 0.05, 0.030);
+            char name[64];
+            snprintf(name, sizeof name, "impact %g m/s, T0 = %g kN", rows[k][0], tight ? 15.5 : 0);
+            check_impact(name, got, want.tension, want.kink_speed, want.angle, 0.03);
+        }
+}
+
+static void transverse_impact_of_strings(void** state) {
+    (void)state;
+    /* validation data D.3: c, V, eps0, eps, lab kink speed, angle */
+    const double rows[4][6] = {
+        {5000, 50, 0, 0.00137359857, 178.56969, 15.6424},
+        {5000, 100, 0, 0.00348478121, 278.25011, 19.7679},
+        {3500, 50, 0, 0.00221692998, 157.21831, 17.6422},
+        {3500, 50, 0.001, 0.00291973676, 182.67787, 15.3073},
+    };
+    for (int k = 0; k < 4; ++k) {
+        bt_cable_def def = rope_def(2, 1);
+        const double c = rows[k][0];
+        def.mass_kgpm = 1;
+        def.axial_stiffness_N = c * c;
+        def.axial_damping_Ns = 80 * c / 3035 / 5.536;
+        def.bending_stiffness_Nm2 = 0;
+        def.twist_stiffness_Nm2 = 0;
+        def.compression_ratio = 0.01;
+        const impact got = strike(def, rows[k][2], rows[k][1], 0.05, 0.024);
+        char name[64];
+        snprintf(name, sizeof name, "string, c = %g, V = %g, eps0 = %g", c, rows[k][1], rows[k][2]);
+        check_impact(name, got, c * c * rows[k][3], rows[k][4], rows[k][5], 0.03);
+    }
+}
+
+static void transverse_impact_converges_with_the_segments(void** state) {
+    (void)state;
+    double error[3];
+    for (int k = 0; k < 3; ++k) {
+        bt_cable_def def = rope_def(2, 1);
+        def.axial_damping_Ns = 80;
+        def.compression_ratio = 0.01;
+        const double c = sqrt(def.axial_stiffness_N / def.mass_kgpm);
+        const double eps0 = 15500 / def.axial_stiffness_N;
+        const impact want = oblique_front(c, def.mass_kgpm, eps0, 31);
+        const impact got = strike(def, eps0, 31, 0.2 / (1 << k), 0.030);
+        error[k] = got.tension / want.tension - 1;
+    }
+    print_message("impact tension at 0.2, 0.1, 0.05 m: %.3g %.3g %.3g\n", error[0], error[1],
+                  error[2]);
+    assert_true(fabs(error[2]) < 0.01 && fabs(error[2]) < fabs(error[0]));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(string_frequencies_converge_to_fourth_order),
+        cmocka_unit_test(tensioned_wire_frequencies_with_bending),
+        cmocka_unit_test(longitudinal_wave_speed_from_standing_waves),
+        cmocka_unit_test(longitudinal_front_speed_force_and_reflection),
+        cmocka_unit_test(free_end_reflects_a_pulse_with_opposite_sign),
+        cmocka_unit_test(transverse_impact_of_the_arresting_cable),
+        cmocka_unit_test(transverse_impact_of_strings),
+        cmocka_unit_test(transverse_impact_converges_with_the_segments),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
