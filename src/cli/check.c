@@ -50,7 +50,7 @@ static void print_text(const bt_study* study, int64_t runs, const bt_stable_step
     printf("results     %s\n\n", study->directory);
     printf("%-28s %12s %12s\n", "element", "stable step", "step used");
     for (int i = 0; i < step_count; ++i)
-        printf("%-28s %9.3g us %9.3g us\n", steps[i].element, 1e6 * steps[i].stable_s,
+        printf("%-28s %9.1f us %9.1f us\n", steps[i].element, 1e6 * steps[i].stable_s,
                1e6 * steps[i].used_s);
 }
 
