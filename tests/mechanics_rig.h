@@ -16,7 +16,7 @@ typedef struct rig {
     char text[2048]; ///< all diagnostics
     int notes;
     bt_audit start;
-    double energy_error_J;    ///< largest change of kinetic + potential energy in rig_run
+    double energy_error_J; ///< largest change of kinetic + potential energy in rig_run
     double position_residual, velocity_residual, norm_error; ///< largest in rig_run
 } rig;
 

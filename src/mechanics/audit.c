@@ -21,24 +21,20 @@ static void add_body(const bt_system* system, const bt_state* state, int b, bt_a
     audit->norm_error = fmax(audit->norm_error, fabs(norm - 1));
 }
 
-/// Largest |G v| of a joint over the largest speed that its two points have.
-static double velocity_error(const bt_system* system, const bt_state* state, const double* rotation,
-                             int j) {
+/// Largest |G v| of a joint over the speeds of its bodies.
+static double velocity_error(const bt_system* system, const bt_state* state, int j) {
     const bt_joint* joint = &system->joints[j];
-    double ga[6 * BT_JOINT_ROWS_MAX], gb[6 * BT_JOINT_ROWS_MAX], worst = 0;
-    bt_joint_jacobian(joint, state->q, rotation, ga, gb);
+    const int lengths = bt_joint_length_rows(joint->kind);
+    double ga[6 * BT_JOINT_ROWS_MAX], gb[6 * BT_JOINT_ROWS_MAX], worst = 0, length, angle;
+    bt_joint_jacobian(joint, state->q, state->rotation, ga, gb);
+    bt_rate_scales(system, state->v, j, &length, &angle);
     for (int r = 0; r < joint->row_count; ++r) {
-        double sum = 0, size = 0;
+        double rate = 0;
         for (int k = 0; k < 6; ++k) {
-            const double a =
-                joint->body_a < 0 ? 0 : ga[6 * r + k] * state->v[6 * joint->body_a + k];
-            const double b =
-                joint->body_b < 0 ? 0 : gb[6 * r + k] * state->v[6 * joint->body_b + k];
-            sum += a + b;
-            size = fmax(size, fmax(fabs(a), fabs(b)));
+            rate += joint->body_a < 0 ? 0 : ga[6 * r + k] * state->v[6 * joint->body_a + k];
+            rate += joint->body_b < 0 ? 0 : gb[6 * r + k] * state->v[6 * joint->body_b + k];
         }
-        if (size > 0)
-            worst = fmax(worst, fabs(sum) / fmax(size, joint->row_scale[r] * 1e-3));
+        worst = fmax(worst, fabs(rate) / (r < lengths ? length : angle));
     }
     return worst;
 }
@@ -56,8 +52,7 @@ void bt_system_audit(const bt_system* system, const bt_state* state, bt_audit* a
     }
     audit->position_residual = bt_residual(system, state->q, state->rotation, work->phi, NULL);
     for (int j = 0; j < system->joint_count; ++j)
-        audit->velocity_residual =
-            fmax(audit->velocity_residual, velocity_error(system, state, state->rotation, j));
+        audit->velocity_residual = fmax(audit->velocity_residual, velocity_error(system, state, j));
 }
 
 void bt_system_joint_load(const bt_system* system, const bt_state* state, int joint,

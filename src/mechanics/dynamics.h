@@ -43,6 +43,11 @@ void bt_move(double q[7], const double step[6]);
 double bt_close_positions(const bt_system* system, bt_state* state, int iterations,
                           double turn_limit_rad, int* worst, bt_failure* failure);
 
+/// What velocity errors of joint j are judged by: the largest speed of its bodies, m/s (at least
+/// the joint's size turning at their rate), and their largest rate of turning, rad/s (at least
+/// 1e-3).
+void bt_rate_scales(const bt_system* system, const double* v, int j, double* length, double* angle);
+
 /// v := the nearest in the mass metric with G v = 0 to rounding, with the present factor.
 void bt_close_velocities(const bt_system* system, bt_state* state);
 

@@ -70,24 +70,31 @@ double bt_close_positions(const bt_system* system, bt_state* state, int iteratio
     return residual;
 }
 
+void bt_rate_scales(const bt_system* system, const double* v, int j, double* length,
+                    double* angle) {
+    const bt_joint* joint = &system->joints[j];
+    const int ends[2] = {joint->body_a, joint->body_b};
+    double speed = 0, turn = 1e-3;
+    for (int s = 0; s < 2; ++s)
+        for (int k = 0; ends[s] >= 0 && k < 3; ++k) {
+            speed = fmax(speed, fabs(v[6 * ends[s] + k]));
+            turn = fmax(turn, fabs(v[6 * ends[s] + 3 + k]));
+        }
+    *length = fmax(speed, turn * joint->row_scale[0]);
+    *angle = turn;
+}
+
 /// Whether G v, in work->x behind the bodies, is more than rounding of its terms.
 static bool velocities_open(const bt_system* system, const bt_state* state) {
     const double* rate = bt_work_of(state)->x + 6 * system->body_count;
     for (int j = 0; j < system->joint_count; ++j) {
         const bt_joint* joint = &system->joints[j];
-        double speed = 0, turn = 0; // of the two bodies
-        const int ends[2] = {joint->body_a, joint->body_b};
-        for (int s = 0; s < 2; ++s)
-            for (int k = 0; ends[s] >= 0 && k < 3; ++k) {
-                speed = fmax(speed, fabs(state->v[6 * ends[s] + k]));
-                turn = fmax(turn, fabs(state->v[6 * ends[s] + 3 + k]));
-            }
-        for (int r = 0; r < joint->row_count; ++r) {
-            const bool length = r < bt_joint_length_rows(joint->kind);
-            const double size = length ? fmax(speed, turn * joint->row_scale[r]) : turn;
-            if (!(fabs(rate[joint->row + r]) <= BT_CLOSED * (size + 1e-3 * joint->row_scale[r])))
+        const int lengths = bt_joint_length_rows(joint->kind);
+        double length, angle;
+        bt_rate_scales(system, state->v, j, &length, &angle);
+        for (int r = 0; r < joint->row_count; ++r)
+            if (!(fabs(rate[joint->row + r]) <= BT_CLOSED * (r < lengths ? length : angle)))
                 return true;
-        }
     }
     return false;
 }
