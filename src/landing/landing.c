@@ -195,7 +195,8 @@ static void start(run* r) {
 
     bt_cable_state_copy(&l->cable_model, &l->cable, &l->resting);
     prepare_contacts(r);
-    bt_tracker_start(&r->tracker, r->result);
+    bt_tracker_start(&r->tracker, r->result, l->cable_model.radius_m,
+                     r->params->aircraft.hook.cable_contact.friction);
 }
 
 /// The airframe's step: fine while the hook is at or near the deck or the cable.

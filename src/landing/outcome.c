@@ -16,8 +16,13 @@ const char* bt_mode_name(bt_mode mode) {
     return names[mode];
 }
 
-void bt_tracker_start(bt_tracker* tracker, bt_landing_result* result) {
-    *tracker = (bt_tracker){.margin_m = NAN, .first_contact_s = NAN, .catch_s = NAN};
+void bt_tracker_start(bt_tracker* tracker, bt_landing_result* result, double cable_radius_m,
+                      double friction) {
+    *tracker =
+        (bt_tracker){.margin_m = NAN,
+                     .friction_rise_m = cable_radius_m * friction / sqrt(1 + friction * friction),
+                     .first_contact_s = NAN,
+                     .catch_s = NAN};
     *result = (bt_landing_result){.margin_m = NAN, .time_of_contact_s = NAN};
 }
 
@@ -64,7 +69,7 @@ void bt_tracker_cable(bt_tracker* tracker, bt_landing_result* result, double tim
         tracker->first_contact_s = result->time_of_contact_s = time_s;
     if (!tracker->met && (point || lip_m[0] >= cable_m[0])) {
         tracker->met = true;
-        tracker->margin_m = cable_m[2] - lip_m[2];
+        tracker->margin_m = cable_m[2] - lip_m[2] - tracker->friction_rise_m;
         tracker->clear_of_deck_when_met = !tracker->touched;
     }
     if (throat && isnan(tracker->catch_s)) {

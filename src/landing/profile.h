@@ -3,7 +3,8 @@
 ///
 /// Frame: origin at the centre of the shoe arc; u along the shank toward the pivot, w normal to it,
 /// up-and-aft (the body frame of the hook, whose y axis is the normal of the plane). The mouth
-/// opens forward and down: the cable comes in from -w.
+/// opens forward and down: the cable comes in from -w. The throat is all that lies inside the
+/// mouth: the throat arc, and the arm's face up to the point opposite the lip.
 ///
 ///            arm back  ______________________________  u ->
 ///     shoe arc       (                                    (pivot)
@@ -35,7 +36,7 @@ typedef struct bt_piece {
     double start[2], end[2], normal[2];
 } bt_piece;
 
-enum { BT_PIECE_COUNT = 7 };
+enum { BT_PIECE_COUNT = 8 };
 
 typedef struct bt_profile {
     bt_piece pieces[BT_PIECE_COUNT];
