@@ -8,6 +8,7 @@
 #include <signal.h>
 #include <sqlite3.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 typedef struct fixture {
@@ -397,6 +398,36 @@ static void a_full_disk_is_said_and_nothing_committed_is_lost(void** state) {
     bt_ledger_close(ledger);
 }
 
+/// As a user who may read the study directory but not write in it: 0 when everything that needs
+/// writing is refused with the reason, and reading works.
+static int try_read_only(fixture* f) {
+    bt_directory directory;
+    if (geteuid() == 0 && setuid(65534) != 0)
+        return 1;
+    if (bt_directory_open(&directory, f->directory, &f->diag) != BT_ERR_IO ||
+        !strstr(f->messages.last, "cannot be written"))
+        return 2;
+    if (open_status(f, BT_LEDGER_WRITE) != BT_ERR_IO ||
+        !strstr(f->messages.last, "the ledger cannot be written"))
+        return 3;
+    return open_status(f, BT_LEDGER_READ) == BT_OK ? 0 : 4;
+}
+
+static void a_read_only_directory_is_said_and_can_still_be_read(void** state) {
+    fixture* f = *state;
+    bt_ledger_close(opened(f));
+    assert_int_equal(chmod(f->path, 0444), 0);
+    assert_int_equal(chmod(f->directory, 0555), 0);
+    const pid_t child = fork();
+    if (child == 0)
+        _exit(try_read_only(f));
+    int code = 0;
+    waitpid(child, &code, 0);
+    chmod(f->directory, 0755);
+    assert_true(WIFEXITED(code));
+    assert_int_equal(WEXITSTATUS(code), 0);
+}
+
 static void a_killed_writer_loses_only_what_was_not_committed(void** state) {
     fixture* f = *state;
     const pid_t child = fork();
@@ -487,6 +518,7 @@ int main(void) {
         TEST(a_second_process_is_kept_out_and_told_who_works),
         TEST(a_file_is_replaced_whole),
         TEST(a_full_disk_is_said_and_nothing_committed_is_lost),
+        TEST(a_read_only_directory_is_said_and_can_still_be_read),
         TEST(a_killed_writer_loses_only_what_was_not_committed),
         TEST(shards_merge_and_a_difference_is_refused),
         TEST(a_remark_is_kept_and_replaced),

@@ -1,0 +1,346 @@
+/// What a user types: exit codes, help, messages, and the whole chain at small size.
+#define _GNU_SOURCE
+#include "near.h"
+
+#include "campaign/directory.h"
+#include "toy_study.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <time.h>
+
+#define REFERENCE "studies/reference/study.yaml"
+/* A coarse cable and few landings: the whole chain in seconds. */
+#define SMALL                                                                                      \
+    "--set deck.cable.mesh.fine_length='0.2 m' --set deck.cable.mesh.medium_length='0.3 m' "       \
+    "--set deck.cable.mesh.coarse_length='0.6 m' --set campaign.samples=96 "                       \
+    "--set reliability.samples=20000 --set reliability.truth_runs=2 "
+
+typedef struct fixture {
+    char* directory;
+    char *out, *err; ///< of the last command
+} fixture;
+
+static int setup(void** state) {
+    fixture* f = calloc(1, sizeof *f);
+    f->directory = toy_directory();
+    *state = f;
+    return 0;
+}
+
+static int teardown(void** state) {
+    fixture* f = *state;
+    toy_directory_remove(f->directory);
+    free(f->out);
+    free(f->err);
+    free(f);
+    return 0;
+}
+
+static char* read_text(const fixture* f, const char* name) {
+    char path[4096];
+    char* text = NULL;
+    assert_int_equal(bt_file_read(toy_path(path, f->directory, name), &text, NULL, NULL), BT_OK);
+    return text;
+}
+
+/// Runs `bolter ARGUMENTS` through the shell, "%" standing for the test's directory; returns the
+/// exit code.
+static int bolter(fixture* f, const char* arguments) {
+    const char* program = getenv("BOLTER");
+    char* command = NULL;
+    size_t size = 0;
+    FILE* text = open_memstream(&command, &size);
+    fprintf(text, "'%s' ", program ? program : "build/bolter");
+    for (const char* c = arguments; *c; ++c)
+        if (*c == '%')
+            fputs(f->directory, text);
+        else
+            fputc(*c, text);
+    fprintf(text, " >'%s/out' 2>'%s/err'", f->directory, f->directory);
+    fclose(text);
+    const int code = system(command);
+    free(command);
+    free(f->out);
+    free(f->err);
+    f->out = read_text(f, "out");
+    f->err = read_text(f, "err");
+    return WIFEXITED(code) ? WEXITSTATUS(code) : -1;
+}
+
+static void write_file(const fixture* f, const char* name, const char* text) {
+    char path[4096];
+    assert_int_equal(bt_file_write(toy_path(path, f->directory, name), text, strlen(text), NULL),
+                     BT_OK);
+}
+
+static void assert_has(const char* text, const char* part) {
+    if (!strstr(text, part))
+        fail_msg("\"%s\" is not in:\n%s", part, text);
+}
+
+/// The number after "key": in a JSON text.
+static double json_number(const char* text, const char* key) {
+    char quoted[64];
+    snprintf(quoted, sizeof quoted, "\"%s\": ", key);
+    const char* at = strstr(text, quoted);
+    if (!at)
+        fail_msg("no key %s in:\n%s", key, text);
+    return atof(at + strlen(quoted));
+}
+
+static void help_and_version_are_no_errors(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "--help"), 0);
+    assert_has(f->out, "Usage: bolter VERB");
+    assert_has(f->out, "Exit codes");
+    assert_int_equal(bolter(f, "--version"), 0);
+    assert_has(f->out, "bolter ");
+    assert_int_equal(bolter(f, "--version --verbose"), 0);
+    assert_has(f->out, "sqlite");
+    assert_has(f->out, "-ffp-contract=off");
+    static const char* const verbs[] = {"check",  "keys", "land",        "campaign",
+                                        "replay", "fit",  "reliability", "study"};
+    for (size_t i = 0; i < sizeof verbs / sizeof verbs[0]; ++i) {
+        char arguments[64];
+        snprintf(arguments, sizeof arguments, "%s --help", verbs[i]);
+        assert_int_equal(bolter(f, arguments), 0);
+        assert_has(f->out, "Usage: bolter ");
+        assert_has(f->out, "--set=PATH=VALUE");
+    }
+}
+
+static void wrong_use_is_exit_code_2(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, ""), 2);
+    assert_int_equal(bolter(f, "chekc " REFERENCE), 2);
+    assert_has(f->err, "did you mean \"check\"?");
+    assert_int_equal(bolter(f, "check"), 2);
+    assert_has(f->err, "STUDY.yaml expected");
+    assert_int_equal(bolter(f, "check " REFERENCE " more"), 2);
+    assert_int_equal(bolter(f, "land " REFERENCE " --no-such-option"), 2);
+    assert_int_equal(bolter(f, "replay " REFERENCE " seven"), 2);
+    assert_has(f->err, "not a whole number");
+    assert_int_equal(bolter(f, "campaign " REFERENCE " -o % --shard 9/8"), 2);
+    assert_int_equal(bolter(f, "campaign merge " REFERENCE), 2);
+}
+
+static void check_accepts_the_reference_and_prints_stable_steps(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "check " REFERENCE), 0);
+    assert_has(f->out, "deck.cable");
+    assert_has(f->out, "aircraft.main_gear.oleo");
+    assert_string_equal(f->err, "");
+    assert_int_equal(bolter(f, "check " REFERENCE " --json"), 0);
+    assert_has(f->out, "\"stable_s\"");
+}
+
+static void check_warns_of_a_step_above_the_stable_one(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "check " REFERENCE " --set landing.solver.contact_step='5 ms'"), 0);
+    assert_has(f->err, "warning: landing.solver.contact_step");
+    assert_has(f->err, "aircraft.hook.deck_contact");
+}
+
+/// Replaces the first line that begins with `key` by another.
+static char* with_line(char* text, const char* key, const char* line) {
+    char* at = strstr(text, key);
+    assert_non_null(at);
+    char* spoilt = NULL;
+    size_t size = 0;
+    FILE* out = open_memstream(&spoilt, &size);
+    fprintf(out, "%.*s%s%s", (int)(at - text), text, line, at + 1 + strcspn(at + 1, "\n"));
+    fclose(out);
+    free(text);
+    return spoilt;
+}
+
+static void check_reports_five_mistakes_with_their_places(void** state) {
+    fixture* f = *state;
+    char* text = NULL;
+    assert_int_equal(bt_file_read(REFERENCE, &text, NULL, NULL), BT_OK);
+    text = with_line(text, "\n  sink_speed:", "\n  sink_speed: 3.6 kg");
+    text = with_line(text, "\n  horizontal_speed:", "\n  horizontal_sped: 47.5 m/s");
+    text = with_line(text, "\n  pitch:", "\n  pitch: 3");
+    text = with_line(text, "\n  distance:", "\n  distance: nan m");
+    text = with_line(text, "\n  samples:", "\n  samples: 20.5");
+    write_file(f, "study.yaml", text);
+    free(text);
+    char command[9000];
+    snprintf(command, sizeof command, "cp studies/reference/[ad]*.yaml '%s'", f->directory);
+    assert_int_equal(system(command), 0);
+
+    assert_int_equal(bolter(f, "check %/study.yaml"), 3);
+    int errors = 0;
+    for (const char* at = f->err; (at = strstr(at, ": error: ")); ++at)
+        ++errors;
+    assert_true(errors >= 5);
+    static const char* const parts[] = {
+        "study.yaml:",   "landing.sink_speed", "horizontal_sped",  "did you mean",
+        "landing.pitch", "landing.distance",   "campaign.samples", "nothing was run"};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i)
+        assert_has(f->err, parts[i]);
+    assert_string_equal(f->out, "");
+}
+
+static void a_file_that_is_not_there_is_exit_code_5(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "check %/none.yaml"), 5);
+    assert_has(f->err, "none.yaml");
+}
+
+static void land_prints_the_promised_keys_and_nothing_else(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "land " REFERENCE " --json"), 0);
+    assert_string_equal(f->err, "");
+    assert_true(f->out[0] == '{');
+    static const char* const keys[] = {"outcome",
+                                       "mode",
+                                       "margin_m",
+                                       "throat_force_peak_N",
+                                       "time_of_contact_s",
+                                       "bounces",
+                                       "height_m",
+                                       "distance_m",
+                                       "impact_force_N",
+                                       "hook_deck_force_peak_N",
+                                       "strut_stroke_max_m",
+                                       "tyre_force_max_N",
+                                       "nose",
+                                       "left",
+                                       "right",
+                                       "steps",
+                                       "wall_s"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
+        char quoted[64];
+        snprintf(quoted, sizeof quoted, "\"%s\": ", keys[i]);
+        assert_has(f->out, quoted);
+    }
+}
+
+static void land_writes_time_histories_in_hdf5(void** state) {
+    fixture* f = *state;
+    char path[4096];
+    assert_int_equal(bolter(f, "land " REFERENCE " --quiet -o %/one.h5"), 0);
+    char* data = NULL;
+    assert_int_equal(bt_file_read(toy_path(path, f->directory, "one.h5"), &data, NULL, NULL),
+                     BT_OK);
+    assert_memory_equal(data, "\x89HDF\r\n\x1a\n", 8);
+    free(data);
+    assert_int_equal(bolter(f, "land " REFERENCE " --quiet -o %/none/one.h5"), 5);
+    assert_has(f->err, "cannot write the time histories");
+}
+
+static void a_full_standard_output_is_exit_code_5(void** state) {
+    fixture* f = *state;
+    const char* program = getenv("BOLTER");
+    char command[8192];
+    snprintf(command, sizeof command, "'%s' keys >/dev/full 2>'%s/err'",
+             program ? program : "build/bolter", f->directory);
+    const int code = system(command);
+    assert_int_equal(WEXITSTATUS(code), 5);
+}
+
+static void the_whole_chain_at_small_size(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "study " REFERENCE " " SMALL "-o %/small"), 0);
+    assert_has(f->out, "hold-out");
+    assert_has(f->out, "landing.sink_speed");
+    assert_has(f->out, "landing.distance");
+    char* first = strdup(f->out);
+
+    /* nothing is left to do: the same text at once */
+    assert_int_equal(bolter(f, "study " REFERENCE " " SMALL "-o %/small"), 0);
+    assert_string_equal(f->out, first);
+    free(first);
+
+    assert_int_equal(bolter(f, "campaign status " REFERENCE " " SMALL "-o %/small --json"), 0);
+    BT_ASSERT_NEAR(json_number(f->out, "done"), 96, 0, 0);
+    BT_ASSERT_NEAR(json_number(f->out, "failed"), 0, 0, 0);
+    assert_int_equal(bolter(f, "fit " REFERENCE " " SMALL "-o %/small --json"), 0);
+    assert_true(json_number(f->out, "holdout_accuracy") > 0.5);
+    assert_true(json_number(f->out, "holdout_n") > 10);
+    assert_int_equal(bolter(f, "replay " REFERENCE " 5 " SMALL "-o %/small"), 0);
+    assert_has(f->out, "the same to the bit");
+    assert_int_equal(bolter(f, "replay " REFERENCE " 500 " SMALL "-o %/small"), 2);
+
+    assert_int_equal(bolter(f, "reliability " REFERENCE " " SMALL "-o %/small --json"), 0);
+    int conditions = 0;
+    for (const char* at = f->out; (at = strstr(at, "\"parameter\": ")); ++at)
+        ++conditions;
+    assert_int_equal(conditions, 24);
+    static const char* const keys[] = {"value",      "surrogate",      "surrogate_ci95",
+                                       "corrected",  "corrected_ci95", "samples",
+                                       "truth_runs", "disagreements"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i)
+        assert_has(f->out, keys[i]);
+    char* stored = read_text(f, "small/reliability.json");
+    assert_string_equal(f->out, stored);
+    free(stored);
+}
+
+static void another_study_in_the_same_directory_is_refused(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "campaign " REFERENCE " " SMALL "--set campaign.samples=2 -o %/a"),
+                     0);
+    assert_int_equal(bolter(f, "campaign " REFERENCE " " SMALL
+                               "--set campaign.samples=2 --set aircraft.mass='20000 kg' -o %/a"),
+                     5);
+    assert_has(f->err, "aircraft.mass = ");
+    assert_has(f->err, "-o");
+}
+
+static void a_directory_that_is_a_file_is_exit_code_5(void** state) {
+    fixture* f = *state;
+    write_file(f, "file", "");
+    assert_int_equal(bolter(f, "campaign " REFERENCE " " SMALL "-o %/file/study"), 5);
+    assert_has(f->err, "cannot make the study directory");
+}
+
+static void an_unknown_campaign_says_to_run_it_first(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "fit " REFERENCE " -o %/none"), 5);
+    assert_has(f->err, "run the campaign first");
+    assert_int_equal(bolter(f, "campaign status " REFERENCE " -o %/none"), 5);
+}
+
+/// A second process on the same study directory is sent away; SIGINT ends the first with exit code
+/// 130 and keeps what was finished.
+static void a_second_process_is_kept_out_and_an_interrupt_loses_nothing(void** state) {
+    fixture* f = *state;
+    setenv("STUDY", REFERENCE " --set campaign.samples=3000 -q -o", 1);
+    assert_int_equal(bolter(f, "campaign $STUDY % & sleep 1.5; "
+                               "\"$BOLTER\" campaign $STUDY % 2>%/second; echo $? >>%/second; "
+                               "kill -INT $!; wait $!"),
+                     130);
+    char* second = read_text(f, "second");
+    assert_has(second, "another bolter (process ");
+    assert_has(second, "\n5\n");
+    free(second);
+    assert_int_equal(bolter(f, "campaign status $STUDY % --json"), 0);
+    const double done = json_number(f->out, "done");
+    assert_true(done >= 1 && done < 3000);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(help_and_version_are_no_errors),
+        TEST(wrong_use_is_exit_code_2),
+        TEST(check_accepts_the_reference_and_prints_stable_steps),
+        TEST(check_warns_of_a_step_above_the_stable_one),
+        TEST(check_reports_five_mistakes_with_their_places),
+        TEST(a_file_that_is_not_there_is_exit_code_5),
+        TEST(land_prints_the_promised_keys_and_nothing_else),
+        TEST(land_writes_time_histories_in_hdf5),
+        TEST(a_full_standard_output_is_exit_code_5),
+        TEST(the_whole_chain_at_small_size),
+        TEST(another_study_in_the_same_directory_is_refused),
+        TEST(a_directory_that_is_a_file_is_exit_code_5),
+        TEST(an_unknown_campaign_says_to_run_it_first),
+        TEST(a_second_process_is_kept_out_and_an_interrupt_loses_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
