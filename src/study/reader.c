@@ -92,10 +92,15 @@ void bt_reader_nearest(const char* typed, const char* name, const char** best, i
     }
 }
 
+/// More than a third of the letters wrong is no misspelling any more.
+static bool is_near(const char* typed, const char* best, int distance) {
+    return best && distance <= 1 + (int)strlen(typed) / 3;
+}
+
 void bt_reader_suggest(const char* typed, const char* best, int distance, char* text, size_t size) {
-    // a third of the letters wrong is no misspelling any more
-    const bool near = best && distance <= 1 + (int)strlen(typed) / 3;
-    snprintf(text, size, near ? "; did you mean \"%s\"?" : "", best);
+    *text = '\0';
+    if (is_near(typed, best, distance))
+        snprintf(text, size, "; did you mean \"%s\"?", best);
 }
 
 static const char* kind_name(const bt_node* node) {
@@ -404,23 +409,40 @@ static void check_group(bt_reader* reader, const bt_group* group, const void* pa
         group->check(params, path, &diag);
 }
 
-static void report_unknown_keys(bt_reader* reader, const bt_group* group, const char* path,
-                                const bt_node* node, const char* const* also) {
-    enum { NAMES_MAX = 128 };
-    const char* names[NAMES_MAX + 1];
+enum { NAMES_MAX = 128 };
+
+static void list_names(const bt_group* group, const char* names[NAMES_MAX + 1]) {
     int count = 0;
     for (; count < group->field_count && count < NAMES_MAX; ++count)
         names[count] = group->fields[count].name;
     names[count] = NULL;
-    bt_reader_known_keys(reader, node, path, names, also);
+}
+
+/// Whether some unknown key is best explained as this one misspelt: then it is not missing as well.
+static bool is_misspelt(const bt_node* node, const char* name, const char* const* names,
+                        const char* const* also) {
+    for (const bt_node* child = node->first; child; child = child->next) {
+        const char* typed = child->key->text;
+        const char* best = NULL;
+        int distance = INT_MAX;
+        if (is_among(names, typed) || is_among(also, typed))
+            continue;
+        nearest_of(names, typed, &best, &distance);
+        nearest_of(also, typed, &best, &distance);
+        if (is_near(typed, best, distance) && strcmp(best, name) == 0)
+            return true;
+    }
+    return false;
 }
 
 void bt_reader_group(bt_reader* reader, const bt_group* group, void* params, const char* path,
                      const bt_node* node, const char* const* also) {
     const int before = reader->errors;
+    const char* names[NAMES_MAX + 1];
     if (!bt_reader_is_mapping(reader, node, path))
         return;
-    report_unknown_keys(reader, group, path, node, also);
+    list_names(group, names);
+    bt_reader_known_keys(reader, node, path, names, also);
     for (int i = 0; i < group->field_count; ++i) {
         const bt_field* field = &group->fields[i];
         char place[PATH_SIZE];
@@ -428,7 +450,7 @@ void bt_reader_group(bt_reader* reader, const bt_group* group, void* params, con
         const bt_node* child = bt_node_child(node, field->name);
         if (child)
             read_field(reader, field, child, place, (char*)params + field->offset);
-        else if (field->need == BT_REQUIRED)
+        else if (field->need == BT_REQUIRED && !is_misspelt(node, field->name, names, also))
             report_missing(reader, field, node->key ? node->key->where : node->where, place);
     }
     if (reader->errors == before)
