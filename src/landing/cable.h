@@ -36,7 +36,7 @@ BT_DECLARE_GROUP(cable_supports, BT_CABLE_SUPPORTS_FIELDS)
 
 #define BT_CABLE_DECK_FIELDS(F)                                                                    \
     F(REAL, stiffness, Npm2, OPTIONAL, 2e9, 1e6, 1e12, "", "deck contact: force per metre of cable and metre of penetration [assumed]") \
-    F(PLAIN, restitution, _, OPTIONAL, 0.3, 0.02, 1, "", "rebound over impact speed of a piece of cable on the deck [assumed]") \
+    F(PLAIN, restitution, _, OPTIONAL, 0.3, 0.14, 1, "", "rebound over impact speed of a piece of cable on the deck [assumed]") \
     F(PLAIN, friction, _, OPTIONAL, 0.3, 0, 2, "", "Coulomb friction, cable on deck [assumed]") \
     F(REAL, slip_speed, mps, OPTIONAL, 0.1, 1e-4, 10, "", "sliding speed at which friction reaches 0.71 of its value [assumed]")
 BT_DECLARE_GROUP(cable_deck, BT_CABLE_DECK_FIELDS)
