@@ -1,0 +1,263 @@
+#include "reliability/reliability.h"
+
+#include "surrogate/predictor.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { POOL_MAX = 1000000, GATHER = 128 };
+
+static double now_s(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- the surrogate as a classifier ---- */
+
+struct bt_surrogate_classifier {
+    bt_classifier classifier;
+    bt_predictor* predictor;
+    int dims, inputs;        ///< of the surrogate, of the study
+    int input[BT_INPUT_MAX]; ///< the study's input behind each of the surrogate's
+    bool straight;           ///< the same inputs in the same order
+};
+
+static void classify(void* user, const double* x, int n, int8_t* label, float* decision) {
+    const bt_surrogate_classifier* c = user;
+    if (c->straight) {
+        bt_predictor_label(c->predictor, x, n, label, decision);
+        return;
+    }
+    double gathered[GATHER * BT_INPUT_MAX];
+    for (int at = 0; at < n; at += GATHER) {
+        const int count = n - at < GATHER ? n - at : GATHER;
+        for (int i = 0; i < count; ++i)
+            for (int k = 0; k < c->dims; ++k)
+                gathered[i * c->dims + k] =
+                    x[(size_t)(at + i) * (size_t)c->inputs + (size_t)c->input[k]];
+        bt_predictor_label(c->predictor, gathered, count, label + at, decision + at);
+    }
+}
+
+static int find_input(const bt_study* study, const char* path) {
+    for (int i = 0; i < study->input_count; ++i)
+        if (!strcmp(study->inputs[i].path, path))
+            return i;
+    return -1;
+}
+
+bt_status bt_surrogate_classifier_create(const bt_study* study, const bt_surrogate* surrogate,
+                                         bt_surrogate_classifier** made, bt_diag* diag) {
+    *made = NULL;
+    bt_surrogate_classifier* c = calloc(1, sizeof *c);
+    if (!c)
+        return BT_ERR_MEMORY;
+    c->dims = surrogate->dims;
+    c->inputs = study->input_count;
+    c->straight = c->dims == c->inputs;
+    c->classifier = (bt_classifier){.classify = classify, .user = c, .boxed = true};
+    for (int i = 0; i < c->inputs; ++i) {
+        c->classifier.least[i] = -INFINITY;
+        c->classifier.greatest[i] = INFINITY;
+    }
+    bt_status status = BT_OK;
+    for (int k = 0; k < c->dims; ++k) {
+        const int input = c->input[k] = find_input(study, surrogate->path[k]);
+        if (input < 0) {
+            bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                        "the surrogate was trained on %s, which is not an input of this study; run "
+                        "fit again",
+                        surrogate->path[k]);
+            status = BT_ERR_INPUT;
+            continue;
+        }
+        c->straight = c->straight && input == k;
+        c->classifier.least[input] = surrogate->least[k];
+        c->classifier.greatest[input] = surrogate->greatest[k];
+    }
+    if (status == BT_OK)
+        status = bt_predictor_create(surrogate, bt_isa_best(), &c->predictor);
+    if (status == BT_OK)
+        *made = c;
+    else
+        bt_surrogate_classifier_destroy(c);
+    return status;
+}
+
+void bt_surrogate_classifier_destroy(bt_surrogate_classifier* made) {
+    if (!made)
+        return;
+    bt_predictor_destroy(made->predictor);
+    free(made);
+}
+
+const bt_classifier* bt_surrogate_classifier_get(const bt_surrogate_classifier* made) {
+    return &made->classifier;
+}
+
+/* ---- one condition ---- */
+
+/// Makes the planned true runs and counts them into their strata.
+static bt_status run_truth(const bt_sampler* sampler, const bt_pool* pool, bt_check* check,
+                           bt_truth_batch* truth, void* user) {
+    const size_t n = (size_t)check->picked_count, dims = (size_t)sampler->dims;
+    double* x = malloc((n * dims + 1) * sizeof *x);
+    int* label = malloc((n + 1) * sizeof *label);
+    bt_status status = x && label ? BT_OK : BT_ERR_MEMORY;
+    for (size_t i = 0; i < n && status == BT_OK; ++i)
+        bt_sampler_draw(sampler, (uint64_t)check->picked[i], 1, x + i * dims);
+    if (status == BT_OK)
+        status = truth(user, x, check->picked_count, label);
+    for (size_t i = 0; i < n && status == BT_OK; ++i) {
+        const int8_t said = pool->label[check->picked[i]];
+        bt_stratum* s =
+            &check->stratum[bt_check_stratum(check, said, pool->decision[check->picked[i]])];
+        ++s->runs;
+        s->failed += label[i] < 0;
+        s->disagreed += label[i] >= 0 && label[i] != (said > 0);
+    }
+    free(x);
+    free(label);
+    return status;
+}
+
+static void fill_from_tally(bt_reliability_row* row, const bt_tally* t) {
+    const double n = (double)t->samples;
+    row->samples = t->samples;
+    row->engaged = t->engaged;
+    row->surrogate = (double)t->engaged / n;
+    row->surrogate_ci95 = bt_clopper_pearson(t->engaged, t->samples, 0.95);
+    row->outside_share = (double)t->outside / n;
+    row->outside_ci95 = bt_clopper_pearson(t->outside, t->samples, 0.95);
+    row->outside_missed = (double)(t->engaged - t->outside_engaged) / n;
+    row->outside_engaged = (double)(t->engaged - t->outside_engaged + t->outside) / n;
+}
+
+static void fill_from_check(bt_reliability_row* row, const bt_check* check) {
+    memcpy(row->stratum, check->stratum, sizeof row->stratum);
+    for (int k = 0; k < BT_STRATA; ++k) {
+        row->truth_runs += check->stratum[k].runs;
+        row->truth_failed += check->stratum[k].failed;
+        row->disagreements += check->stratum[k].disagreed;
+    }
+    const bt_check_result r = bt_check_estimate(check->stratum);
+    row->disagreement = r.disagreement;
+    row->disagreement_ci95 = r.disagreement_ci95;
+    row->corrected = r.corrected;
+    row->corrected_ci95 = r.corrected_ci95;
+}
+
+static void clear_row(bt_reliability_row* row) {
+    bt_reliability_row fresh = {.unit = row->unit, .value = row->value};
+    memcpy(fresh.parameter, row->parameter, sizeof fresh.parameter);
+    fresh.disagreement = fresh.corrected = NAN;
+    fresh.disagreement_ci95 = fresh.corrected_ci95 = (bt_interval){NAN, NAN};
+    *row = fresh;
+}
+
+bt_status bt_reliability_condition(const bt_sampler* sampler, const bt_classifier* classifier,
+                                   int64_t samples, int threads, bt_truth_batch* truth,
+                                   void* truth_user, int truth_runs, double expected_error,
+                                   bt_reliability_row* row) {
+    const double begun_s = now_s();
+    clear_row(row);
+    const bool checked = truth && truth_runs > 0;
+    bt_pool pool = {.count = samples < POOL_MAX ? (int)samples : POOL_MAX};
+    bt_check check = {0};
+    bt_tally tally;
+    bt_status status = BT_OK;
+    if (checked) {
+        pool.label = malloc((size_t)pool.count * sizeof *pool.label);
+        pool.decision = malloc((size_t)pool.count * sizeof *pool.decision);
+        status = pool.label && pool.decision ? BT_OK : BT_ERR_MEMORY;
+    }
+    if (status == BT_OK)
+        status =
+            bt_monte_carlo(sampler, classifier, samples, threads, checked ? &pool : NULL, &tally);
+    if (status == BT_OK)
+        fill_from_tally(row, &tally);
+    if (status == BT_OK && checked) {
+        status = bt_check_plan(&pool, truth_runs, expected_error, sampler->seed, sampler->stream,
+                               &check);
+        if (status == BT_OK)
+            status = run_truth(sampler, &pool, &check, truth, truth_user);
+        if (status == BT_OK)
+            fill_from_check(row, &check);
+    }
+    free(check.picked);
+    free(pool.label);
+    free(pool.decision);
+    row->seconds = now_s() - begun_s;
+    return status;
+}
+
+/* ---- the study ---- */
+
+bt_sampler bt_reliability_sampler(const bt_study* study, int condition) {
+    bt_sampler sampler = {.dims = study->input_count,
+                          .seed = (uint64_t)study->reliability.seed,
+                          .stream = (uint32_t)(condition + 1)};
+    const bt_condition* moved = condition >= 0 ? &study->conditions[condition] : NULL;
+    for (int i = 0; i < study->input_count; ++i) {
+        const bt_input* input = &study->inputs[i];
+        bt_distribution d = input->distribution;
+        if (!input->random)
+            d = (bt_distribution){.kind = BT_CONSTANT,
+                                  .mean = bt_field_get(input->field, &study->model, input->offset)};
+        if (moved && moved->input == i)
+            d = bt_distribution_moved(&d, moved->mean);
+        else if (moved && study->reliability.others == BT_OTHERS_FROZEN)
+            d = (bt_distribution){.kind = BT_CONSTANT, .mean = bt_distribution_mean(&d)};
+        sampler.distribution[i] = d;
+    }
+    return sampler;
+}
+
+/// The hold-out error of the surrogate, never quite zero: where to look for disagreements.
+static double expected_error(const bt_surrogate* surrogate) {
+    const bt_surrogate_scores* s = &surrogate->scores;
+    if (s->holdout_count <= 0)
+        return 0.05;
+    return (s->holdout_count - s->holdout_correct + 0.5) / (s->holdout_count + 1.0);
+}
+
+bt_status bt_reliability_run(const bt_study* study, const bt_surrogate* surrogate,
+                             const bt_reliability_options* options, bt_reliability_result* result,
+                             bt_diag* diag) {
+    const double begun_s = now_s();
+    const bt_reliability_params* params = &study->reliability;
+    const int total = study->condition_count + 1;
+    const int runs = params->truth_runs < POOL_MAX ? (int)params->truth_runs : POOL_MAX;
+    memset(result, 0, sizeof *result);
+    bt_surrogate_classifier* classifier;
+    BT_TRY(bt_surrogate_classifier_create(study, surrogate, &classifier, diag));
+    bt_status status = BT_OK;
+    for (int c = 0; c < total && status == BT_OK; ++c) {
+        const bool last = c == total - 1;
+        bt_reliability_row* row = last ? &result->overall : &result->condition[c];
+        row->unit = "";
+        row->value = NAN;
+        if (!last) {
+            const bt_input* input = &study->inputs[study->conditions[c].input];
+            memcpy(row->parameter, input->path, sizeof row->parameter);
+            row->unit = input->field->unit;
+            row->value = study->conditions[c].mean;
+        }
+        const bt_sampler sampler = bt_reliability_sampler(study, last ? -1 : c);
+        status = options->stop && atomic_load(options->stop)
+                     ? BT_ERR_INTERRUPTED
+                     : bt_reliability_condition(&sampler, bt_surrogate_classifier_get(classifier),
+                                                params->samples, options->threads, options->truth,
+                                                options->truth_user, runs,
+                                                expected_error(surrogate), row);
+        result->condition_count += !last && status == BT_OK;
+        if (options->watch && status == BT_OK)
+            options->watch(options->watch_user, c + 1, total);
+    }
+    bt_surrogate_classifier_destroy(classifier);
+    result->seconds = now_s() - begun_s;
+    return status;
+}
