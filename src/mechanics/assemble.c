@@ -172,7 +172,7 @@ static double gyration_radius(const bt_body* body) {
     return sqrt((body->inertia[0] + body->inertia[4] + body->inertia[8]) * body->inverse_mass / 2);
 }
 
-static void set_scales(const bt_system* system, bt_joint* joint) {
+static void set_scales(bt_system* system, bt_joint* joint) {
     double size = fmax(bt_norm(joint->point_a), bt_norm(joint->point_b));
     if (joint->body_a >= 0)
         size = fmax(size, gyration_radius(&system->bodies[joint->body_a]));
@@ -181,6 +181,7 @@ static void set_scales(const bt_system* system, bt_joint* joint) {
     const int lengths = bt_joint_length_rows(joint->kind);
     for (int r = 0; r < BT_JOINT_ROWS_MAX; ++r)
         joint->row_scale[r] = r < lengths ? size : 1;
+    system->smallest_scale = fmin(system->smallest_scale, size);
 }
 
 static void check_joint(bt_system* system, bt_joint* joint, bt_diag* diag) {
@@ -344,6 +345,7 @@ static bt_status check_all(bt_system* system, bt_diag* diag) {
         bt_diag_add(d, BT_ERROR, BT_NOWHERE, "gravity must be finite");
     for (int b = 0; b < system->body_count; ++b)
         check_body(&system->bodies[b], d);
+    system->smallest_scale = INFINITY;
     if (d->errors == before) // joints look at the attitudes of their bodies
         for (int j = 0; j < system->joint_count; ++j)
             check_joint(system, &system->joints[j], d);

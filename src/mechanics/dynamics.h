@@ -51,7 +51,10 @@ void bt_rate_scales(const bt_system* system, const double* v, int j, double* len
 /// v := the nearest in the mass metric with G v = 0 to rounding, with the present factor.
 void bt_close_velocities(const bt_system* system, bt_state* state);
 
-/// Residuals above this are reduced further while stepping.
+/// The residual that rounding makes at q: joints are closed down to it.
+double bt_rounding(const bt_system* system, const double* q);
+
+/// Velocity residuals above this are reduced further.
 #define BT_CLOSED 1e-12
 
 /// Residuals above this are an error.

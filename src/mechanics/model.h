@@ -30,7 +30,8 @@ struct bt_system {
     bt_status add_status; ///< what went wrong while adding, kept for bt_system_assemble
     bool assembled;
     int constraint_count, redundant_count, output_count;
-    int refinements; ///< of each solve; 0 when no joint closes a loop
+    double smallest_scale; ///< of all joints' lengths, m
+    int refinements;       ///< of each solve; 0 when no joint closes a loop
     bt_kkt kkt;
 };
 
@@ -46,6 +47,7 @@ typedef struct bt_work {
     double* wrench;        ///< [6 n] forces of the last evaluation, without gyroscopic terms
     double* used;          ///< [6 n] outside wrench that a and lambda contain
     double* kick;          ///< [6 n] impulse of half a step: force, torque both in the world
+    double* turn;          ///< [n] angle of the step's turn
     double* q_old;         ///< [7 n]
     double* v_old;         ///< [6 n]
     double* rotation_old;  ///< [9 n]

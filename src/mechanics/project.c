@@ -23,6 +23,14 @@ double bt_residual(const bt_system* system, const double* q, const double* rotat
     return largest;
 }
 
+double bt_rounding(const bt_system* system, const double* q) {
+    double far = 0;
+    for (int b = 0; b < system->body_count; ++b)
+        for (int i = 0; i < 3; ++i)
+            far = fmax(far, fabs(q[7 * b + i]));
+    return fmin(1e-12, 1e-15 + 4.5e-16 * far / system->smallest_scale);
+}
+
 void bt_move(double q[7], const double step[6]) {
     double turn[4], e[4];
     bt_add_scaled(q, 1, step);
@@ -57,15 +65,16 @@ double bt_close_positions(const bt_system* system, bt_state* state, int iteratio
                           double turn_limit_rad, int* worst, bt_failure* failure) {
     bt_work* work = bt_work_of(state);
     bt_rotations(system, state->q, state->rotation);
+    const double rounding = bt_rounding(system, state->q);
     double residual = bt_residual(system, state->q, state->rotation, work->phi, worst);
-    for (int i = 0; i < iterations && residual > BT_CLOSED; ++i) {
+    for (int i = 0; i < iterations && residual > rounding; ++i) {
         if (!bt_factorise(system, state, failure))
             return INFINITY;
         newton_step(system, state, turn_limit_rad);
         const double before = residual;
         residual = bt_residual(system, state->q, state->rotation, work->phi, worst);
-        if (!isfinite(residual) || (residual < BT_CLOSED_ENOUGH && residual > 0.5 * before))
-            break; // rounding level
+        if (!isfinite(residual) || (residual < BT_CLOSED_ENOUGH && residual > 0.25 * before))
+            break;
     }
     return residual;
 }

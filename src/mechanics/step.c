@@ -5,6 +5,8 @@
 
 /* ------------------------------------------------------------------ second order */
 
+#define ROUNDING 2e-16
+
 /// Half of the step's impulse from the accelerations at its start: force and torque (constraint
 /// forces included), both in the world, times h/2.
 static void first_kick(const bt_system* system, const bt_state* state, double half_h) {
@@ -53,21 +55,47 @@ static void free_turn(const bt_body* body, const double pi[3], double h, double 
     }
 }
 
-/// Moves all bodies over h with the momenta of the middle of the step.
-static void drift(const bt_system* system, bt_state* state, double h) {
+/// Moves body b over h from its start with the momenta of the middle of the step.
+static void drift(const bt_system* system, bt_state* state, int b, double h) {
+    bt_work* work = bt_work_of(state);
+    const bt_body* body = &system->bodies[b];
+    const double *v = state->v + 6 * b, *kick = work->kick + 6 * b;
+    double pi[3], local[3], step[6];
+    bt_rotate(body->inertia, v + 3, pi);
+    bt_unrotate(work->rotation_old + 9 * b, kick + 3, local);
+    bt_add_scaled(pi, 1, local);
+    for (int i = 0; i < 3; ++i)
+        step[i] = h * (v[i] + body->inverse_mass * kick[i]);
+    free_turn(body, pi, h, step + 3);
+    work->turn[b] = bt_norm(step + 3);
+    memcpy(state->q + 7 * b, work->q_old + 7 * b, 7 * sizeof(double));
+    bt_move(state->q + 7 * b, step);
+}
+
+/// Adds to the kick of body b the impulse that changes its velocity by dv at the start of the step.
+static void add_impulse(const bt_body* body, const bt_work* work, int b, const double dv[6]) {
+    double local[3], impulse[3];
+    bt_rotate(body->inertia, dv + 3, local);
+    bt_rotate(work->rotation_old + 9 * b, local, impulse);
+    bt_add_scaled(work->kick + 6 * b, body->mass_kg, dv);
+    bt_add_scaled(work->kick + 6 * b + 3, 1, impulse);
+}
+
+/// Moves the end of the step of body b by what the velocity change dv at its start does over h, to
+/// first order in dv and in the turn. False, and nothing done, when that is not exact to rounding.
+static bool nudge(bt_state* state, int b, const double dv[6], double h) {
     const bt_work* work = bt_work_of(state);
-    for (int b = 0; b < system->body_count; ++b) {
-        const bt_body* body = &system->bodies[b];
-        const double *v = state->v + 6 * b, *kick = work->kick + 6 * b;
-        double pi[3], local[3], step[6];
-        bt_rotate(body->inertia, v + 3, pi);
-        bt_unrotate(state->rotation + 9 * b, kick + 3, local);
-        bt_add_scaled(pi, 1, local);
-        for (int i = 0; i < 3; ++i)
-            step[i] = h * (v[i] + body->inverse_mass * kick[i]);
-        free_turn(body, pi, h, step + 3);
-        bt_move(state->q + 7 * b, step);
+    if (work->turn[b] * h * bt_norm(dv + 3) > ROUNDING)
+        return false;
+    double world[3], local[3], step[6];
+    bt_rotate(work->rotation_old + 9 * b, dv + 3, world);
+    bt_unrotate(state->rotation + 9 * b, world, local);
+    for (int i = 0; i < 3; ++i) {
+        step[i] = h * dv[i];
+        step[3 + i] = h * local[i];
     }
+    bt_move(state->q + 7 * b, step);
+    return true;
 }
 
 /// Adds to the kick the constraint impulses that put the end of the step on the constraints. They
@@ -75,11 +103,12 @@ static void drift(const bt_system* system, bt_state* state, double h) {
 static bool close_drift(const bt_system* system, bt_state* state, double h, int* worst) {
     bt_work* work = bt_work_of(state);
     const int n = system->body_count;
+    const double rounding = bt_rounding(system, state->q);
     double before = INFINITY;
-    for (int sweep = 0; sweep < 25; ++sweep) {
+    for (int sweep = 0; sweep < 40; ++sweep) {
         bt_rotations(system, state->q, state->rotation);
         const double residual = bt_residual(system, state->q, state->rotation, work->phi, worst);
-        if (residual <= BT_CLOSED || (residual < BT_CLOSED_ENOUGH && residual > 0.5 * before))
+        if (residual <= rounding || (residual < BT_CLOSED_ENOUGH && residual > 0.25 * before))
             return true;
         if (!isfinite(residual) || residual > 4 * before)
             return false;
@@ -89,20 +118,9 @@ static bool close_drift(const bt_system* system, bt_state* state, double h, int*
             work->x[6 * n + r] = -work->phi[r] / h;
         bt_solve(system, state);
         for (int b = 0; b < n; ++b) {
-            const bt_body* body = &system->bodies[b];
-            const double* dv = work->x + 6 * b;
-            double world[3], local[3], impulse[3], step[6];
-            bt_rotate(body->inertia, dv + 3, local);
-            bt_rotate(work->rotation_old + 9 * b, local, impulse);
-            bt_add_scaled(work->kick + 6 * b, body->mass_kg, dv);
-            bt_add_scaled(work->kick + 6 * b + 3, 1, impulse);
-            bt_rotate(work->rotation_old + 9 * b, dv + 3, world);
-            bt_unrotate(state->rotation + 9 * b, world, local);
-            for (int i = 0; i < 3; ++i) {
-                step[i] = h * dv[i];
-                step[3 + i] = h * local[i];
-            }
-            bt_move(state->q + 7 * b, step);
+            add_impulse(&system->bodies[b], work, b, work->x + 6 * b);
+            if (!nudge(state, b, work->x + 6 * b, h))
+                drift(system, state, b, h);
         }
     }
     return false;
@@ -139,8 +157,10 @@ static bool step_second_order(const bt_system* system, bt_state* state, double h
     const double end_s = state->time_s + h;
     int worst;
     memcpy(work->rotation_old, state->rotation, sizeof(double) * 9 * n);
+    memcpy(work->q_old, state->q, sizeof(double) * 7 * n);
     first_kick(system, state, 0.5 * h);
-    drift(system, state, h);
+    for (int b = 0; b < system->body_count; ++b)
+        drift(system, state, b, h);
     if (!close_drift(system, state, h, &worst))
         return bt_fail(failure, worst >= 0 ? system->joints[worst].name : "body",
                        "position constraint", end_s);

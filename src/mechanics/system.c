@@ -187,6 +187,7 @@ static size_t lay_out(const bt_system* system, unsigned char* block, bt_state* s
         {&work->wrench, 6 * n},
         {&work->used, 6 * n},
         {&work->kick, 6 * n},
+        {&work->turn, n},
         {&work->q_old, 7 * n},
         {&work->v_old, 6 * n},
         {&work->rotation_old, 9 * n},
