@@ -18,12 +18,12 @@
 
 // clang-format off
 #define BT_CABLE_MESH_FIELDS(F)                                                                    \
-    F(REAL, fine_length, m, OPTIONAL, 0.05, 0.005, 2, "Eq. 11", "segment length where wheels and hook meet the cable") \
+    F(REAL, fine_length, m, OPTIONAL, 0.06, 0.005, 2, "Eq. 11", "segment length where wheels and hook meet the cable") \
     F(REAL, fine_half_width, m, OPTIONAL, 3.0, 0, 50, "", "the fine segments lie within this distance of the middle") \
     F(REAL, medium_length, m, OPTIONAL, 0.1, 0.005, 2, "Eq. 11", "segment length outside the fine part") \
-    F(REAL, medium_half_width, m, OPTIONAL, 5.0, 0, 50, "", "the medium segments lie within this distance of the middle") \
+    F(REAL, medium_half_width, m, OPTIONAL, 7.0, 0, 50, "", "the medium segments lie within this distance of the middle; it should reach past the first supports") \
     F(REAL, coarse_length, m, OPTIONAL, 0.3, 0.005, 2, "Eq. 11", "segment length outside the medium part") \
-    F(PLAIN, growth, _, OPTIONAL, 1.25, 1.02, 10, "", "largest ratio of neighbouring segment lengths where the length changes [assumed]")
+    F(PLAIN, growth, _, OPTIONAL, 1.1, 1.02, 10, "", "largest ratio of neighbouring segment lengths where the length changes [assumed]")
 BT_DECLARE_GROUP(cable_mesh, BT_CABLE_MESH_FIELDS)
 
 #define BT_CABLE_SUPPORTS_FIELDS(F)                                                                \
@@ -35,7 +35,7 @@ BT_DECLARE_GROUP(cable_mesh, BT_CABLE_MESH_FIELDS)
 BT_DECLARE_GROUP(cable_supports, BT_CABLE_SUPPORTS_FIELDS)
 
 #define BT_CABLE_DECK_FIELDS(F)                                                                    \
-    F(REAL, stiffness, Npm2, OPTIONAL, 2e9, 1e6, 1e12, "", "deck contact: force per metre of cable and metre of penetration [assumed]") \
+    F(REAL, stiffness, Npm2, OPTIONAL, 5e8, 1e6, 1e12, "", "deck contact: force per metre of cable and metre of penetration [assumed]") \
     F(PLAIN, restitution, _, OPTIONAL, 0.3, 0.14, 1, "", "rebound over impact speed of a piece of cable on the deck [assumed]") \
     F(PLAIN, friction, _, OPTIONAL, 0.3, 0, 2, "", "Coulomb friction, cable on deck [assumed]") \
     F(REAL, slip_speed, mps, OPTIONAL, 0.1, 1e-4, 10, "", "sliding speed at which friction reaches 0.71 of its value [assumed]")

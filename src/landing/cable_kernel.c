@@ -17,12 +17,27 @@ static inline deck_law deck_law_of(const bt_cable_model* model) {
                       p->friction, p->slip_speed_mps * p->slip_speed_mps};
 }
 
-/// Normal force of the deck on a segment: spring and damper, never pulling.
+/// Spring and damper under half a segment, never pulling.
 static inline double deck_normal(deck_law law, double length, double z, double vz) {
     const double depth = law.radius - z;
     const double force = length * (law.stiffness * depth - law.damping * vz);
     const double pushing = force > 0 ? force : 0;
     return depth > 0 ? pushing : 0;
+}
+
+typedef struct deck_push {
+    double normal; ///< N, up
+    double moment; ///< N m: (normal force times distance along the axis), of both points
+} deck_push;
+
+/// The deck under the two Gauss points of a segment: a tilted one lands on its lower end.
+static inline deck_push deck_under(deck_law law, double half, double z, double tz, double vz,
+                                   double tilt_rate) {
+    const double arm = 0.57735026918962576 * half;
+    const double rise = arm * tz, rate = arm * tilt_rate;
+    const double before = deck_normal(law, half, z - rise, vz - rate);
+    const double after = deck_normal(law, half, z + rise, vz + rate);
+    return (deck_push){before + after, arm * (after - before)};
 }
 
 /// Force on the segment before each joint and torques on both, Eqs. 11-17 and shear. Force and
@@ -107,7 +122,10 @@ void LEVEL(bt_cable_resultants)(const bt_cable_model* model, bt_cable_state* sta
     const double gravity = model->def.gravity_mps2;
     for (int i = 0; i < model->padded; ++i) {
         const int j = i + 1;
-        const double normal = deck_normal(law, 2 * model->half_m[i], s->z[i], s->vz[i]);
+        const double tilt_rate = s->wx[i] * s->ty[i] - s->wy[i] * s->tx[i];
+        const deck_push deck =
+            deck_under(law, model->half_m[i], s->z[i], s->tz[i], s->vz[i], tilt_rate);
+        const double normal = deck.normal;
         const double sx = s->vx[i] - s->wy[i] * law.radius;
         const double sy = s->vy[i] + s->wx[i] * law.radius;
         const double drag = law.friction * normal / sqrt(sx * sx + sy * sy + law.slip2);
@@ -115,9 +133,11 @@ void LEVEL(bt_cable_resultants)(const bt_cable_model* model, bt_cable_state* sta
         s->net[1][i] = (s->joint_fy[j] - s->joint_fy[i]) + (s->fy[i] - drag * sy);
         s->net[2][i] = (s->joint_fz[j] - s->joint_fz[i]) +
                        ((s->fz[i] + s->support_fz[i]) + (normal - gravity * model->mass_kg[i]));
-        s->net[3][i] = (s->before_x[j] + s->after_x[i]) +
-                       ((s->mx[i] + s->support_mx[i]) - law.radius * (drag * sy));
-        s->net[4][i] = (s->before_y[j] + s->after_y[i]) + (s->my[i] + law.radius * (drag * sx));
+        s->net[3][i] =
+            (s->before_x[j] + s->after_x[i]) +
+            ((s->mx[i] + s->support_mx[i]) + (deck.moment * s->ty[i] - law.radius * (drag * sy)));
+        s->net[4][i] = (s->before_y[j] + s->after_y[i]) +
+                       (s->my[i] + (law.radius * (drag * sx) - deck.moment * s->tx[i]));
         s->net[5][i] = (s->before_z[j] + s->after_z[i]) + s->mz[i];
     }
 }
@@ -155,7 +175,9 @@ void LEVEL(bt_cable_advance)(const bt_cable_model* model, bt_cable_state* state,
     for (int i = 0; i < count; ++i) {
         const int j = i + 1;
         /* deck */
-        const double normal = deck_normal(law, 2 * half[i], z[i], vz[i]);
+        const double tilt_rate = wx[i] * ty[i] - wy[i] * tx[i];
+        const deck_push deck = deck_under(law, half[i], z[i], tz[i], vz[i], tilt_rate);
+        const double normal = deck.normal;
         const double sx = vx[i] - wy[i] * law.radius, sy = vy[i] + wx[i] * law.radius;
         const double limit = law.friction * normal;
         const double drag =
@@ -165,8 +187,9 @@ void LEVEL(bt_cable_advance)(const bt_cable_model* model, bt_cable_state* state,
         const double netx = (gx[j] - gx[i]) + (fx[i] - dragx);
         const double nety = (gy[j] - gy[i]) + (fy[i] - dragy);
         const double netz = (gz[j] - gz[i]) + ((fz[i] + support[i]) + (normal - gravity * mass[i]));
-        const double torx = (bx[j] + ax[i]) + ((mx[i] + support_turn[i]) - law.radius * dragy);
-        const double tory = (by[j] + ay[i]) + (my[i] + law.radius * dragx);
+        const double torx = (bx[j] + ax[i]) + ((mx[i] + support_turn[i]) +
+                                               (deck.moment * ty[i] - law.radius * dragy));
+        const double tory = (by[j] + ay[i]) + (my[i] + (law.radius * dragx - deck.moment * tx[i]));
         const double torz = (bz[j] + az[i]) + mz[i];
         /* velocities */
         const double kick = kick_s * per_mass[i];
