@@ -11,6 +11,7 @@ typedef void bt_classify(void* user, const double* x, int n, int8_t* label, floa
 typedef struct bt_classifier {
     bt_classify* classify;
     void* user;
+    int dims;   ///< numbers per point
     bool boxed; ///< least and greatest hold: the box in which the classifier was trained
     double least[BT_INPUT_MAX], greatest[BT_INPUT_MAX];
 } bt_classifier;

@@ -58,7 +58,8 @@ bt_status bt_surrogate_classifier_create(const bt_study* study, const bt_surroga
     c->dims = surrogate->dims;
     c->inputs = study->input_count;
     c->straight = c->dims == c->inputs;
-    c->classifier = (bt_classifier){.classify = classify, .user = c, .boxed = true};
+    c->classifier =
+        (bt_classifier){.classify = classify, .user = c, .dims = c->inputs, .boxed = true};
     for (int i = 0; i < c->inputs; ++i) {
         c->classifier.least[i] = -INFINITY;
         c->classifier.greatest[i] = INFINITY;

@@ -9,7 +9,7 @@ typedef struct bt_sampler {
     int dims;
     bt_distribution distribution[BT_INPUT_MAX];
     uint64_t seed;
-    uint32_t stream; ///< below 2^24; tells conditions apart
+    uint32_t stream; ///< below 2^23; tells conditions apart
 } bt_sampler;
 
 /// Samples first .. first + n - 1: x_k = quantile of distribution k at a uniform number of 52 bits.
