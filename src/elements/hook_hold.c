@@ -68,3 +68,32 @@ void bt_hook_hold_place(double down_stop_rad, double lever_m, double angle_rad, 
             on_shank[i] + length_m * (sin(angle_rad) * rising[i] - cos(angle_rad) * along[i]);
     }
 }
+
+/// Moment about the pivot that lowers the hook, at rest at a shank angle.
+static double lowering_moment(const bt_hook_damper* damper, const double on_fuselage[3],
+                              double lever_m, double length_m, double shank_rad) {
+    const double end[2] = {-lever_m * cos(shank_rad), -lever_m * sin(shank_rad)};
+    const double push[2] = {end[0] - on_fuselage[0], end[1] - on_fuselage[2]};
+    const double distance = sqrt(push[0] * push[0] + push[1] * push[1]);
+    const double stroke_m = length_m - distance;
+    const double arm = (end[0] * push[1] - end[1] * push[0]) / distance;
+    return bt_hook_damper_force(damper, stroke_m, 0) * arm;
+}
+
+double bt_hook_hold_hanging_angle(const bt_hook_damper* damper, double down_stop_rad,
+                                  double lever_m, double angle_rad, double length_m,
+                                  double weight_moment_Nm, double pitch_rad) {
+    double on_shank[3], on_fuselage[3];
+    bt_hook_hold_place(down_stop_rad, lever_m, angle_rad, length_m, on_shank, on_fuselage);
+    double low = down_stop_rad, high = down_stop_rad + 0.3;
+    for (int i = 0; i < 60; ++i) {
+        const double shank = 0.5 * (low + high);
+        const double moment = lowering_moment(damper, on_fuselage, lever_m, length_m, shank) +
+                              weight_moment_Nm * cos(shank + pitch_rad);
+        if (moment > 0)
+            low = shank;
+        else
+            high = shank;
+    }
+    return 0.5 * (low + high);
+}

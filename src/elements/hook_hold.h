@@ -31,4 +31,14 @@ extern const bt_element_type bt_hook_hold_type;
 void bt_hook_hold_place(double down_stop_rad, double lever_m, double angle_rad, double length_m,
                         double on_shank[3], double on_fuselage[3]);
 
+/// Shank angle below the fuselage axis at which the hook hangs on its down stop, rad: gas, stop and
+/// weight in balance about the pivot.
+///
+/// @param weight_moment_Nm  mass times felt gravity times distance of the mass centre from the
+/// pivot
+/// @param pitch_rad         of the fuselage axis, nose up positive
+double bt_hook_hold_hanging_angle(const bt_hook_damper* damper, double down_stop_rad,
+                                  double lever_m, double angle_rad, double length_m,
+                                  double weight_moment_Nm, double pitch_rad);
+
 #endif

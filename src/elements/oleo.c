@@ -214,3 +214,18 @@ double bt_oleo_energy(const bt_oleo* oleo, double stroke_m) {
     const double beyond = stroke_m < 0 ? stroke_m : fmax(stroke_m - oleo->stroke_max, 0);
     return bt_oleo_gas_energy(oleo, stroke_m) + 0.5 * oleo->stop_stiffness * beyond * beyond;
 }
+
+double bt_oleo_hanging_stroke(const bt_oleo* oleo, double load_N) {
+    const double k = oleo->stop_stiffness;
+    if (!(k > 0))
+        return 0;
+    // The gas is far softer than the stop: each step gains orders of magnitude.
+    double stroke = 0;
+    for (int i = 0; i < 40; ++i) {
+        const double step = (bt_oleo_gas_force(oleo, stroke) + fmin(k * stroke, 0) + load_N) / k;
+        stroke -= step;
+        if (fabs(step) <= 1e-16 * fabs(stroke))
+            break;
+    }
+    return fmin(stroke, 0);
+}

@@ -123,4 +123,10 @@ double bt_oleo_force(const bt_oleo* oleo, double stroke_m, double rate_mps);
 /// Energy of gas and stops, J: what the strut can give back.
 double bt_oleo_energy(const bt_oleo* oleo, double stroke_m);
 
+/// Stroke at which the strut, pulled apart by a load and at rest, hangs on its stop: the root of
+/// F_s(s, 0) = -load, m (0 without a stop).
+///
+/// @param load_N  N, the weight of what hangs on the piston, >= 0
+double bt_oleo_hanging_stroke(const bt_oleo* oleo, double load_N);
+
 #endif

@@ -24,8 +24,8 @@ static void spring_force(const bt_element* element, const bt_motion* motion, dou
     bt_point_velocity(motion, element->body_a, spring->point_a_m, va);
     bt_point_velocity(motion, element->body_b, spring->point_b_m, vb);
     const double rate = bt_dot(unit, vb) - bt_dot(unit, va);
-    const double force = spring->stiffness_Npm * (length - spring->free_length_m) +
-                         spring->damping_Nspm * rate;
+    const double force =
+        spring->stiffness_Npm * (length - spring->free_length_m) + spring->damping_Nspm * rate;
     const double on_a[3] = {force * unit[0], force * unit[1], force * unit[2]};
     const double on_b[3] = {-on_a[0], -on_a[1], -on_a[2]};
     bt_wrench_add(motion, element->body_a, a, on_a, wrench);

@@ -12,8 +12,8 @@
 /// within -pi .. pi (a spring wound further is not described); dtheta/dt: relative angular velocity
 /// along the axis.
 typedef struct bt_torsion {
-    double axis[3];         ///< in a's frame, any length but zero
-    double attitude_ab[4];  ///< attitude of b relative to a where theta = 0; all zero = (1, 0, 0, 0)
+    double axis[3];        ///< in a's frame, any length but zero
+    double attitude_ab[4]; ///< attitude of b relative to a where theta = 0; all zero = (1, 0, 0, 0)
     double stiffness_Nmprad, free_angle_rad, damping_Nmsprad; ///< k, theta_0, c
 } bt_torsion;
 

@@ -1,0 +1,80 @@
+#include "rigs/rig.h"
+
+#include <math.h>
+
+// clang-format off
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_drop_reference_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(drop_reference, BT_DROP_REFERENCE_FIELDS, ROW, NULL, "what a drop test measured")
+#undef ROW
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_drop_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(drop, BT_DROP_FIELDS, ROW, NULL, "drop test of one leg")
+#undef ROW
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_rebound_reference_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(rebound_reference, BT_REBOUND_REFERENCE_FIELDS, ROW, NULL, "what a rebound test measured")
+#undef ROW
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_rebound_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(rebound, BT_REBOUND_FIELDS, ROW, NULL, "rebound test of the hook")
+#undef ROW
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_rigs_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(rigs, BT_RIGS_FIELDS, ROW, NULL, "verification rigs")
+#undef ROW
+// clang-format on
+
+bt_status bt_rig_open(bt_rig* rig, bt_rig_observer* observer, void* user, bt_diag* diag) {
+    *rig = (bt_rig){.observer = observer, .user = user, .diag = diag};
+    return bt_system_create(&rig->system);
+}
+
+void bt_rig_close(bt_rig* rig) {
+    bt_arena_destroy(&rig->arena);
+    bt_system_destroy(rig->system);
+}
+
+bt_status bt_rig_start(bt_rig* rig, double gravity_mps2) {
+    const double gravity[3] = {0, 0, -gravity_mps2};
+    bt_system_set_gravity(rig->system, gravity);
+    BT_TRY(bt_system_assemble(rig->system, rig->diag));
+    BT_TRY(bt_arena_create(&rig->arena, bt_state_size(rig->system) + 64));
+    return bt_state_create(rig->system, &rig->arena, &rig->state);
+}
+
+static bt_status report(const bt_rig* rig, bt_status status, const bt_failure* failure) {
+    if (status == BT_ERR_NUMERIC)
+        bt_diag_add(rig->diag, BT_ERROR, BT_NOWHERE, "%s of %s diverged at %.6g s",
+                    failure->quantity, failure->where, failure->time_s);
+    return status;
+}
+
+bt_status bt_rig_step(bt_rig* rig, double step_s) {
+    bt_failure failure = {"the rig", "motion", rig->state.time_s};
+    return report(
+        rig, bt_system_step(rig->system, &rig->state, step_s, BT_INTEGRATOR_SECOND_ORDER, &failure),
+        &failure);
+}
+
+bt_status bt_rig_evaluate(bt_rig* rig) {
+    bt_failure failure = {"the rig", "motion", rig->state.time_s};
+    return report(rig, bt_system_evaluate(rig->system, &rig->state, &failure), &failure);
+}
+
+const double* bt_rig_output(const bt_rig* rig, int element) {
+    return bt_system_element_output(rig->system, &rig->state, element);
+}
+
+void bt_rig_show(const bt_rig* rig, int count, const char* const* names, const double* values) {
+    if (!rig->observer)
+        return;
+    const bt_rig_sample sample = {rig->state.time_s, count, names, values};
+    rig->observer(rig->user, &sample);
+}
+
+void bt_rig_add(bt_rig_result* result, const char* name, const char* unit, double value,
+                double reference, double tolerance) {
+    bt_metric* m = &result->metrics[result->metric_count++];
+    *m = (bt_metric){name, unit, value, NAN, NAN, true};
+    if (!(reference > 0))
+        return;
+    m->reference = reference;
+    m->error_percent = 100 * (value - reference) / reference;
+    m->accepted = fabs(m->error_percent) <= 100 * tolerance;
+}
