@@ -504,11 +504,36 @@ static void load(const bt_kkt* kkt, const double* ga, const double* gb, double* 
     }
 }
 
-/// One node: its pivot block, the panel below it, what it takes from the rest.
-ALWAYS_INLINE bool eliminate_node(const bt_kkt* kkt, const bt_kkt_node* node, int n, double sign,
-                                  double* f) {
-    double* l = f + node->diagonal;
-    const bool good = node->constant || factor_dense(n, l, sign);
+/// What a node with one later neighbour does, which in a tree is every node: the panel, the update
+/// of the neighbour's pivot, and L. The panel is held by columns, so that the inner loops run over
+/// neighbouring numbers.
+ALWAYS_INLINE void eliminate_single(int rows, int n, const double* restrict l, double* restrict b,
+                                    double* restrict target) {
+    double w[6][6]; // (L D) by columns
+    for (int r = 0; r < rows; ++r)
+        for (int k = 0; k < n; ++k)
+            w[k][r] = b[n * r + k];
+    for (int c = 1; c < n; ++c)
+        for (int k = 0; k < c; ++k)
+            for (int r = 0; r < rows; ++r)
+                w[c][r] -= w[k][r] * l[n * c + k];
+    for (int r = 0; r < rows; ++r)
+        for (int k = 0; k < n; ++k)
+            b[n * r + k] = w[k][r] * l[n * k + k];
+    for (int r = 0; r < rows; ++r) {
+        double sum[6];
+        for (int c = 0; c < rows; ++c)
+            sum[c] = target[rows * r + c];
+        for (int k = 0; k < n; ++k)
+            for (int c = 0; c < rows; ++c)
+                sum[c] -= b[n * r + k] * w[k][c];
+        for (int c = 0; c < rows; ++c)
+            target[rows * r + c] = sum[c];
+    }
+}
+
+ALWAYS_INLINE void eliminate_panels(const bt_kkt* kkt, const bt_kkt_node* node, int n,
+                                    const double* l, double* f) {
     const bt_kkt_edge* edges = kkt->edges + node->edge_first;
     for (int e = 0; e < node->edge_count; ++e)
         solve_panel(kkt->nodes[edges[e].node].dim, n, l, f + edges[e].offset);
@@ -524,6 +549,32 @@ ALWAYS_INLINE bool eliminate_node(const bt_kkt* kkt, const bt_kkt_node* node, in
             for (int k = 0; k < n; ++k)
                 b[n * r + k] *= l[n * k + k];
     }
+}
+
+/// One node: its pivot block, the panel below it, what it takes from the rest.
+ALWAYS_INLINE bool eliminate_node(const bt_kkt* kkt, const bt_kkt_node* node, int n, double sign,
+                                  double* f) {
+    double* l = f + node->diagonal;
+    const bool good = node->constant || factor_dense(n, l, sign);
+    if (node->edge_count == 1) {
+        const bt_kkt_edge* edge = &kkt->edges[node->edge_first];
+        const bt_kkt_node* later = &kkt->nodes[edge->node];
+        double *b = f + edge->offset, *target = f + later->diagonal;
+        if (later->dim == 6) {
+            eliminate_single(6, n, l, b, target);
+            return good;
+        }
+        if (later->dim == 5) {
+            eliminate_single(5, n, l, b, target);
+            return good;
+        }
+        if (later->dim == 4) {
+            eliminate_single(4, n, l, b, target);
+            return good;
+        }
+    }
+    if (node->edge_count)
+        eliminate_panels(kkt, node, n, l, f);
     return good;
 }
 
