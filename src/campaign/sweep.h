@@ -1,0 +1,51 @@
+/// Parameter studies: one key over several values, one landing each  [Peng2023 Sec. 4].
+#ifndef BT_CAMPAIGN_SWEEP_H
+#define BT_CAMPAIGN_SWEEP_H
+
+#include "landing/landing.h"
+
+enum { BT_SWEEP_VALUES_MAX = 64 };
+
+/// A distance to the cable at which the hook ends its first bounces long before anything meets the
+/// cable, m.
+#define BT_SWEEP_CLEAR_DISTANCE_M 14.0
+
+/// The way of the lowest point of the hook's head from its first contact with the deck on.
+typedef struct bt_hook_path {
+    int count, room;
+    double* travelled_m; ///< [count] along the deck from where it first touched, rising
+    double* height_m;    ///< [count] above the deck
+} bt_hook_path;
+
+typedef struct bt_sweep_row {
+    double value; ///< of the key, SI
+    bt_landing_result result;
+    bt_hook_path path;
+} bt_sweep_row;
+
+typedef struct bt_sweep {
+    const bt_field* field; ///< of the key
+    int count;
+    bt_sweep_row* rows; ///< [count] in the order of the values
+} bt_sweep;
+
+/// Finds a numeric key of the model ("landing.sink_speed"). BT_ERR_INPUT, said in diag with the
+/// nearest key.
+BT_CHECKED bt_status bt_sweep_find(const char* key, const bt_field** field, size_t* offset,
+                                   bt_diag* diag);
+
+/// Reads "3.6 m/s, 4 m/s, 5 m/s": at most BT_SWEEP_VALUES_MAX values of a field, each with its
+/// unit and inside its range. BT_ERR_INPUT, said in diag.
+BT_CHECKED bt_status bt_sweep_values(const bt_field* field, const char* key, const char* text,
+                                     double* values, int* count, bt_diag* diag);
+
+/// Runs one landing per value of the key, the rest as in `model` (which must be checked). The rows
+/// do not depend on the number of threads (0: one per core). A run that diverges is a row whose
+/// outcome is BT_FAILED. On BT_OK the caller owns the sweep (bt_sweep_destroy).
+/// BT_ERR_INPUT: a value that the model does not allow, said in diag; BT_ERR_MEMORY.
+BT_CHECKED bt_status bt_sweep_run(const bt_model_params* model, const char* key,
+                                  const double* values, int count, int threads, bt_sweep* sweep,
+                                  bt_diag* diag);
+void bt_sweep_destroy(bt_sweep* sweep);
+
+#endif
