@@ -95,9 +95,9 @@ static void hold_sheave(const bt_cable_model* model, bt_cable_state* s, int side
     const bt_cable_end* end = &d->end[side];
     const end_point p = end_point_of(model, s, side);
     const double per = d->shear_ratio / model->half_m[p.segment];
-    const double tension =
-        fmax(0, end->pretension_N - p.sign * (end->purchase_stiffness_Npm * p.gap[1] +
-                                              end->purchase_damping_Npmps * p.speed[1]));
+    const double pull = end->pretension_N - p.sign * (end->purchase_stiffness_Npm * p.gap[1] +
+                                                      end->purchase_damping_Npmps * p.speed[1]);
+    const double tension = pull > 0 ? pull : 0;
     const double force[3] = {
         -per * (d->axial_stiffness_N * p.gap[0] + d->axial_damping_Ns * p.speed[0]),
         p.sign * tension,
@@ -170,7 +170,7 @@ static passage pass(const bt_cable_model* model, const bt_cable_state* s, double
         const int i = p.segment + k;
         const double t[3] = {s->tx[i], s->ty[i], s->tz[i]};
         const double w[3] = {s->wx[i], s->wy[i], s->wz[i]};
-        const double far = (y - s->y[i]) / fmax(t[1], 0.1);
+        const double far = (y - s->y[i]) / (t[1] > 0.1 ? t[1] : 0.1);
         const double arm[3] = {far * t[0], far * t[1], far * t[2]};
         double turn[3];
         bt_cross(w, arm, turn);
@@ -185,7 +185,8 @@ static passage pass(const bt_cable_model* model, const bt_cable_state* s, double
     const double before = y - (s->y[i] + model->half_m[i] * s->ty[i]);
     const double after = (s->y[j] - model->half_m[j] * s->ty[j]) - y;
     const double width = 0.5 * (model->half_m[i] * s->ty[i] + model->half_m[j] * s->ty[j]);
-    const double balance = fmin(fmax(0.5 * (before - after) / width, -0.5), 0.5);
+    const double free = 0.5 * (before - after) / width;
+    const double balance = free > 0.5 ? 0.5 : free < -0.5 ? -0.5 : free;
     p.share[0] = 0.5 - balance;
     p.share[1] = 0.5 + balance;
     return p;
