@@ -156,11 +156,25 @@ static void follow_bodies(run* r) {
         bt_hook_clearance(&r->hook_contact, &l->cable_model, &l->cable, &r->hook);
 }
 
+/// When, on the glide, a part that touches the deck line at `lowest_m` at time 0 and reaches
+/// `reach_m` fore and aft comes up to the cable; 0 when it does so later, or passes above it.
+static double comes_to_cable_s(const run* r, const double lowest_m[3], double reach_m) {
+    const bt_landing_params* p = &r->params->landing;
+    const bt_cable_params* cable = &r->params->deck.cable;
+    static const double margin_m = 0.1;
+    const double top_m =
+        fmax(cable->supports.height_m, cable->sheaves.height_m) + cable->diameter_m + margin_m;
+    const double enters_s = (-reach_m - lowest_m[0]) / p->horizontal_speed_mps;
+    const double leaves_s = (reach_m - lowest_m[0]) / p->horizontal_speed_mps;
+    const double leaves_at_m = lowest_m[2] - fmin(leaves_s, 0) * p->sink_speed_mps;
+    return enters_s < 0 && leaves_at_m < top_m ? enters_s : 0;
+}
+
 /// Places aircraft and cable: the cable rests at x = 0, the named part of the gliding aircraft is
 /// `distance` before it when the first part touches the deck at time 0. The run starts a little
-/// earlier: before the first touch, and before any tyre comes near the cable.
+/// earlier: before the first touch, and before any tyre or the hook comes up to the cable.
 static void start(run* r) {
-    static const double before_touch_s = 1e-3, before_cable_m = 0.05;
+    static const double before_touch_s = 1e-3, hook_reach_m = 0.5, tyre_margin_m = 0.05;
     bt_lander* l = r->lander;
     const bt_landing_params* p = &r->params->landing;
     bt_glide glide;
@@ -172,20 +186,15 @@ static void start(run* r) {
     const double wheels_x = 0.5 * (glide.tyre_m[BT_LEG_LEFT][0] + glide.tyre_m[BT_LEG_RIGHT][0]);
     const double from = p->distance_from == BT_DISTANCE_FROM_HOOK ? glide.hook_m[0] : wheels_x;
 
-    // at time 0; going back along the glide is exact, since nothing touches anything there
+    // places at time 0; going back along the glide is exact, since nothing touches anything there
     const double shift[3] = {-p->distance_m - from, 0, -lowest};
     double begin_s = -before_touch_s;
-    const double cable_top_m = l->airframe.profile.shoe_radius +
-                               r->params->deck.cable.supports.height_m +
-                               r->params->deck.cable.diameter_m;
+    bt_add_scaled(glide.hook_m, 1, shift);
+    begin_s = fmin(begin_s, comes_to_cable_s(r, glide.hook_m, hook_reach_m));
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
-        const double reach = l->airframe.tyre[leg].radius + before_cable_m;
-        const double x = glide.tyre_m[leg][0] + shift[0], z = glide.tyre_m[leg][2] + shift[2];
-        const double leaves_s = (reach - x) / p->horizontal_speed_mps;
-        const double enters_s = (-reach - x) / p->horizontal_speed_mps;
-        const double height_m = z - fmin(leaves_s, 0) * p->sink_speed_mps;
-        if (enters_s < 0 && height_m < cable_top_m)
-            begin_s = fmin(begin_s, enters_s);
+        bt_add_scaled(glide.tyre_m[leg], 1, shift);
+        const double reach_m = l->airframe.tyre[leg].radius + tyre_margin_m;
+        begin_s = fmin(begin_s, comes_to_cable_s(r, glide.tyre_m[leg], reach_m));
     }
     const double back[3] = {shift[0] + begin_s * p->horizontal_speed_mps, 0,
                             shift[2] - begin_s * p->sink_speed_mps};

@@ -96,7 +96,7 @@ extern const char* const bt_distance_from_names[];
     F(REAL, roll, rad, OPTIONAL, 0, -0.35, 0.35, "", "roll angle, port side up positive") \
     F(REAL, yaw, rad, OPTIONAL, 0, -0.35, 0.35, "", "yaw angle, nose to port positive; the velocity stays along x") \
     F(REAL, off_centre, m, OPTIONAL, 0, -12, 12, "", "y of the centre of gravity, port positive") \
-    F(REAL, distance, m, REQUIRED, 6, 0.1, 60, "Sec. 5.3", "D: along the deck from the part named by distance_from to the cable at rest, at first contact") \
+    F(REAL, distance, m, REQUIRED, 6, -60, 60, "Sec. 5.3", "D: along the deck from the part named by distance_from to the cable at rest, at first contact; negative when that part is past the cable by then") \
     F(CHOICE, distance_from, bt_distance_from_names, OPTIONAL, 0, 0, 0, "Sec. 5.3", "the part D is measured from") \
     F(GROUP, solver, solver, OPTIONAL, 0, 0, 0, "", "steps and limits of the computation")
 BT_DECLARE_GROUP(landing, BT_LANDING_FIELDS)
