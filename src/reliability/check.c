@@ -70,6 +70,14 @@ static double expected_width(const double share[BT_STRATA], double near_part, in
     return square;
 }
 
+/// Plans as many of `wanted` more runs as the stratum has samples for; returns how many.
+static int plan_more(bt_stratum* s, int wanted) {
+    const int64_t room = s->pool - s->planned;
+    const int more = wanted < room ? wanted : (int)room;
+    s->planned += more;
+    return more;
+}
+
 /// Shares out the runs: in proportion within near and far, between them for the least width.
 static void share_out(bt_check* check, int64_t pool, int runs, double expected_error) {
     double share[BT_STRATA];
@@ -84,18 +92,21 @@ static void share_out(bt_check* check, int64_t pool, int runs, double expected_e
             best_part = part;
         }
     }
-    // Whole numbers, and no more than the stratum has; what rounding leaves goes on to the next.
+    // One for every stratum that has a sample (the estimate is without bias only if each is asked),
+    // the rest by share in whole numbers, and what a small stratum cannot take goes to the others.
+    int left = runs;
+    for (int k = 0; k < BT_STRATA && runs >= BT_STRATA; ++k)
+        left -= check->stratum[k].planned = check->stratum[k].pool > 0;
+    const int shared = left;
     double due = 0;
-    int given = 0;
-    for (int k = 0; k < BT_STRATA; ++k) {
-        bt_stratum* s = &check->stratum[k];
-        if (share[k] > 0)
-            due += runs *
+    for (int k = 0; k < BT_STRATA; ++k)
+        if (share[k] > 0) {
+            due += shared *
                    (k & 1 ? best_part * share[k] / near : (1 - best_part) * share[k] / (1 - near));
-        const int wanted = (int)floor(due + 0.5) - given;
-        s->planned = wanted < s->pool ? wanted : (int)s->pool;
-        given += s->planned;
-    }
+            left -= plan_more(&check->stratum[k], (int)floor(due + 0.5) - (shared - left));
+        }
+    for (int k = BT_STRATA - 1; k >= 0; --k)
+        left -= plan_more(&check->stratum[k], left);
 }
 
 /// Picks the planned number of each stratum's members, every subset equally likely: the first
