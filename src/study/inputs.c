@@ -115,9 +115,12 @@ static void read_parameter(bt_reader* reader, const bt_input* input, const bt_no
     bt_reader_join(place, sizeof place, path, name);
     const bt_node* value = bt_node_child(node, name);
     const bool shape = strcmp(name, "shape") == 0;
+    // values of the key itself, not widths, nor a location that no sample needs to come near
+    const bool width = shape || strcmp(name, "sd") == 0 || strcmp(name, "scale") == 0;
+    const bool ranged = !width && (strcmp(name, "mean") == 0 || !may_be_left_out(d, name));
     if (value)
-        bt_reader_number(reader, shape ? &plain : input->field, value, place,
-                         strcmp(name, "mean") == 0, bt_distribution_parameter(d, name));
+        bt_reader_number(reader, shape ? &plain : input->field, value, place, ranged,
+                         bt_distribution_parameter(d, name));
     else if (!may_be_left_out(d, name))
         bt_reader_error(reader, node->key->where, "%s: missing; %s needs it", place,
                         bt_distribution_names[d->kind]);

@@ -15,6 +15,14 @@ static const char* const chapters[] = {"title",       "aircraft", "deck",      "
                                        "uncertainty", "campaign", "surrogate", "reliability",
                                        "rigs",        NULL};
 
+/// The rigs that `rigs` may describe: name, table, and where in bt_study its parameters stand.
+static const struct {
+    const char* name;
+    const bt_group* group;
+    size_t offset;
+} rigs[] = {{NULL, NULL, 0}};
+enum { RIGS_MAX = sizeof rigs / sizeof rigs[0] };
+
 /// One reading.
 typedef struct reading {
     bt_reader reader;
@@ -235,10 +243,20 @@ static void read_chapter(reading* r, const char* name, const bt_group* group, vo
 }
 
 static void read_rigs(reading* r) {
-    static const char* const rigs[] = {NULL};
+    const char* names[RIGS_MAX + 1] = {NULL};
     const bt_node* node = bt_node_child(r->root, "rigs");
-    if (node && bt_reader_is_mapping(&r->reader, node, "rigs"))
-        bt_reader_known_keys(&r->reader, node, "rigs", rigs, NULL);
+    if (!node || !bt_reader_is_mapping(&r->reader, node, "rigs"))
+        return;
+    for (int i = 0; i < RIGS_MAX && rigs[i].name; ++i) {
+        char path[64];
+        bt_reader_join(path, sizeof path, "rigs", rigs[i].name);
+        names[i] = rigs[i].name;
+        const bt_node* child = bt_node_child(node, rigs[i].name);
+        if (child)
+            bt_reader_group(&r->reader, rigs[i].group, (char*)r->study + rigs[i].offset, path,
+                            child, NULL);
+    }
+    bt_reader_known_keys(&r->reader, node, "rigs", names, NULL);
 }
 
 static void read_chapters(reading* r) {

@@ -146,6 +146,10 @@ static void unsound_distributions(void** state) {
     assert_says("uncertainty:\n  landing.pitch: {distribution: normal, mean: 40 deg, sd: 1 deg}\n",
                 "s.yaml:2:47: error: uncertainty.landing.pitch.mean: 40 deg is outside -20.0535 .. "
                 "20.0535 deg\n");
+    assert_says(
+        "uncertainty:\n  landing.pitch: {distribution: uniform, lower: 0 deg, upper: 30 deg}\n",
+        "s.yaml:2:63: error: uncertainty.landing.pitch.upper: 30 deg is outside -20.0535 .. "
+        "20.0535 deg\n");
     assert_says("uncertainty:\n  landing.pitch: normal\n",
                 "s.yaml:2:18: error: uncertainty.landing.pitch: a mapping of keys is wanted here, "
                 "not a value\n");
