@@ -31,18 +31,19 @@ static void force(const bt_element* element, const bt_motion* motion, double* wr
     const int hook = element->body_a;
     double point[3];
     bt_shoe_lowest(shoe, motion, hook, point);
-    output[BT_SHOE_HEIGHT] = point[2];
-    output[BT_SHOE_X] = point[0];
-    output[BT_SHOE_FORCE] = 0;
-    if (!(point[2] < 0))
-        return;
 
-    // velocity of the material point of the hook that touches the deck
+    // velocity of the material point of the hook that is lowest
     const double* q = motion->q + 7 * hook;
     const double arm[3] = {point[0] - q[0], point[1] - q[1], point[2] - q[2]};
     double local[3], velocity[3], push[3];
     bt_unrotate(motion->rotation + 9 * hook, arm, local);
     bt_point_velocity(motion, hook, local, velocity);
+    output[BT_SHOE_HEIGHT] = point[2];
+    output[BT_SHOE_RATE] = velocity[2];
+    output[BT_SHOE_FORCE] = 0;
+    output[BT_SHOE_X] = point[0];
+    if (!(point[2] < 0))
+        return;
     const double normal = bt_impact_force(&shoe->impact, -point[2], -velocity[2]);
     velocity[2] = 0;
     bt_impact_friction(&shoe->impact, normal, velocity, push);
@@ -58,7 +59,7 @@ static double energy(const bt_element* element, const bt_motion* motion) {
     return point[2] < 0 ? bt_impact_energy(&shoe->impact, -point[2]) : 0;
 }
 
-static const char* const output_names[] = {"height_m", "force_N", "x_m"};
+static const char* const output_names[] = {"height_m", "rate_mps", "force_N", "x_m"};
 
 const bt_element_type bt_shoe_type = {
     .name = "shoe",

@@ -14,9 +14,10 @@ typedef struct bt_shoe {
     double lip_m[3]; ///< centre of the lip, body frame
 } bt_shoe;
 
-enum { BT_SHOE_HEIGHT, BT_SHOE_FORCE, BT_SHOE_X, BT_SHOE_OUTPUTS };
+enum { BT_SHOE_HEIGHT, BT_SHOE_RATE, BT_SHOE_FORCE, BT_SHOE_X, BT_SHOE_OUTPUTS };
 
-/// Outputs: height of the lowest point above the deck (m), normal force (N), x of that point (m).
+/// Outputs: height of the lowest point above the deck (m), vertical velocity of the material point
+/// there (m/s), normal force (N), x of the lowest point (m).
 /// body_a: the hook. data: bt_shoe.
 extern const bt_element_type bt_shoe_type;
 
