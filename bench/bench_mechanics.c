@@ -258,6 +258,7 @@ void bench_mechanics(void) {
     const int nonzeros = dense_matrix(s, &state, dense);
     for (int i = 0; i < n; ++i)
         rhs[i] = sin(1.0 + i);
+    (void)peer; // without peers at hand
     double solve_s;
     const double own_s = time_own(s, &state, rhs, own, &solve_s);
     char name[80];
