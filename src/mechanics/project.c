@@ -12,8 +12,9 @@ double bt_residual(const bt_system* system, const double* q, const double* rotat
         const bt_joint* joint = &system->joints[j];
         bt_joint_residual(joint, q, rotation, phi + joint->row);
         for (int r = joint->row; r < joint->row + joint->row_count; ++r) {
-            const double size = fabs(phi[r]) / joint->row_scale[r - joint->row];
-            if (!(size <= largest)) { // also when it is not a number
+            const double size =
+                isfinite(phi[r]) ? fabs(phi[r]) / joint->row_scale[r - joint->row] : INFINITY;
+            if (size > largest) {
                 largest = size;
                 if (worst)
                     *worst = j;
