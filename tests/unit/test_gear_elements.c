@@ -192,6 +192,24 @@ static void eq9_hook_hold_is_placed_as_drawn(void** state) {
     }
 }
 
+/// At the hanging angle the moments of damper and weight about the pivot cancel.
+static void eq9_hook_hangs_in_balance_on_its_down_stop(void** state) {
+    (void)state;
+    bt_hook_hold data = hold_data();
+    const double weight_moment = 107.9 * 9.8 * 1.293, pitch = 0.1;
+    const double shank =
+        bt_hook_hold_hanging_angle(&data.damper, 1.2147, 0.417, 1.5708, 0.9, weight_moment, pitch);
+    assert_true(shank > 1.2147 && shank < 1.2147 + 0.01);
+    // Both bodies with their origin at the pivot; b turned by what the shank hangs below the stop.
+    const double turn = 0.5 * (shank - 1.2147);
+    const bt_element e = {&bt_hook_hold_type, "hold", 0, 1, &data};
+    scene s = {.q = {0, 0, 0, 1, 0, 0, 0, 0, 0, 0, cos(turn), 0, -sin(turn), 0}};
+    refresh(&s);
+    evaluate(&e, &s);
+    assert_true(s.output[BT_HOOK_HOLD_STROKE] < 0);
+    BT_ASSERT_NEAR(s.wrench[10], weight_moment * cos(shank + pitch), 1e-6, 0);
+}
+
 static void centring_is_equal_and_opposite_and_keeps_the_energy(void** state) {
     (void)state;
     const bt_centring data = {{0, 1, 0}, {0, 0, 1}, {0, 1, 0}, 2e4, 800};
@@ -356,6 +374,7 @@ int main(void) {
         cmocka_unit_test(strut_power_is_energy_and_damping),
         cmocka_unit_test(eq9_hook_hold_is_equal_and_opposite_and_keeps_the_energy),
         cmocka_unit_test(eq9_hook_hold_is_placed_as_drawn),
+        cmocka_unit_test(eq9_hook_hangs_in_balance_on_its_down_stop),
         cmocka_unit_test(centring_is_equal_and_opposite_and_keeps_the_energy),
         cmocka_unit_test(wheel_off_the_ground_has_no_force),
         cmocka_unit_test(eq6_upright_wheel_carries_the_curve_at_its_deflection),

@@ -241,6 +241,20 @@ static void eq5_strut_is_locked_until_the_preload_is_passed(void** state) {
     BT_ASSERT_NEAR(bt_oleo_force(&o, 0, 0), preload, 1e-14, 0);
 }
 
+static void eq5_strut_hangs_on_its_stop(void** state) {
+    (void)state;
+    bt_oleo_params p = main_leg();
+    bt_oleo o = prepared(&p);
+    for (double load = 0; load < 1e4; load += 2500) {
+        const double s = bt_oleo_hanging_stroke(&o, load);
+        assert_true(s < 0);
+        BT_ASSERT_NEAR(bt_oleo_force(&o, s, 0), -load, 0, 1e-6);
+    }
+    p.stop_stiffness_Npm = 0;
+    o = prepared(&p);
+    assert_true(bt_oleo_hanging_stroke(&o, 1e3) == 0);
+}
+
 static void eq2_dissipation_is_never_negative(void** state) {
     (void)state;
     bt_oleo_params p = main_leg();
@@ -401,6 +415,7 @@ int main(void) {
         cmocka_unit_test(eq5_limit_is_zero_inside_and_linear_outside),
         cmocka_unit_test(eq5_stop_damping_never_makes_a_stop_pull),
         cmocka_unit_test(eq5_strut_is_locked_until_the_preload_is_passed),
+        cmocka_unit_test(eq5_strut_hangs_on_its_stop),
         cmocka_unit_test(eq2_dissipation_is_never_negative),
         cmocka_unit_test(eq2_sum_has_no_other_part),
         cmocka_unit_test(friction_loads_the_bearings_by_leverage),
