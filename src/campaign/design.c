@@ -44,19 +44,18 @@ static int64_t product(const int64_t* levels, int count) {
 
 /// Explicit levels stay; the others grow one by one, the smallest first, until samples is reached.
 static void choose_levels(bt_design* d) {
-    bool chosen_here[BT_INPUT_MAX] = {false};
-    int free_count = 0;
+    int open[BT_INPUT_MAX], open_count = 0; /* axes whose levels are chosen here */
     for (int i = 0; i < d->axes.count; ++i) {
         const int levels = d->study->inputs[d->axes.input[i]].levels;
-        chosen_here[i] = levels <= 0;
-        free_count += chosen_here[i];
-        d->levels[i] = chosen_here[i] ? 1 : levels;
+        d->levels[i] = levels > 0 ? levels : 1;
+        if (levels <= 0)
+            open[open_count++] = i;
     }
-    while (free_count > 0 && product(d->levels, d->axes.count) < d->study->campaign.samples) {
-        int smallest = -1;
-        for (int i = 0; i < d->axes.count; ++i)
-            if (chosen_here[i] && (smallest < 0 || d->levels[i] < d->levels[smallest]))
-                smallest = i;
+    while (open_count > 0 && product(d->levels, d->axes.count) < d->study->campaign.samples) {
+        int smallest = open[0];
+        for (int k = 1; k < open_count; ++k)
+            if (d->levels[open[k]] < d->levels[smallest])
+                smallest = open[k];
         ++d->levels[smallest];
     }
 }

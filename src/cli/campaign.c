@@ -1,16 +1,25 @@
+#include "base/units.h"
 #include "cli/chain.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /// "2/8" -> shard 1 of 8 (counted from 0).
 static bool read_shard(const bt_command* command, const char* text, int* shard, int* shards) {
-    int i = 0, n = 0, end = 0;
-    if (sscanf(text, "%d/%d%n", &i, &n, &end) == 2 && text[end] == '\0' && i >= 1 && i <= n) {
-        *shard = i - 1;
-        *shards = n;
-        return true;
+    char first[16] = "";
+    double i = 0, n = 0;
+    const size_t length = strcspn(text, "/");
+    if (text[length] == '/' && length < sizeof first) {
+        memcpy(first, text, length);
+        if (bt_number_parse(first, &i) == BT_OK &&
+            bt_number_parse(text + length + 1, &n) == BT_OK && i == floor(i) && n == floor(n) &&
+            i >= 1 && i <= n && n <= 1e6) {
+            *shard = (int)i - 1;
+            *shards = (int)n;
+            return true;
+        }
     }
     bt_usage_error(command, "--shard: \"%s\" is not of the form i/n with 1 <= i <= n", text);
     return false;

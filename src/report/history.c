@@ -114,7 +114,7 @@ void bt_history_observe(void* user, const bt_landing_view* view) {
     if (h->out_of_memory)
         return;
     for (int i = 0; i < CHANNEL_COUNT; ++i)
-        append(h, &h->channel[i], (const double*)((const char*)view + channels[i].offset),
+        append(h, &h->channel[i], (const void*)((const char*)view + channels[i].offset),
                (size_t)channels[i].count);
     append(h, &h->q, view->q, Q_SIZE);
     append(h, &h->v, view->v, V_SIZE);
