@@ -66,53 +66,6 @@ static void hook_attitude(double angle_rad, double e[4]) {
     e[2] = -sin(0.5 * angle_rad);
 }
 
-/// Stroke at which an unsprung mass hangs on its extended strut: F_s(s) + m g = 0.
-static double hanging_stroke(const bt_oleo* oleo, double weight_N, double stop_stiffness) {
-    double stroke = 0;
-    if (!(stop_stiffness > 0))
-        return 0;
-    for (int i = 0; i < 20; ++i)
-        stroke -=
-            (bt_oleo_gas_force(oleo, stroke) + bt_oleo_limit_force(oleo, stroke, 0) + weight_N) /
-            stop_stiffness;
-    return stroke;
-}
-
-/// Moment about the pivot that turns the hook down, at rest at a shank angle.
-static double hanging_moment(const bt_hook_params* p, const bt_hook_damper* damper,
-                             double angle_rad, double gravity_mps2) {
-    double on_shank[3], anchor[3];
-    bt_hook_hold_place(p->down_stop_rad, p->damper_lever_m, p->damper_angle_rad, p->damper_length_m,
-                       on_shank, anchor);
-    const double shank[3] = {-cos(angle_rad), 0, -sin(angle_rad)};
-    double line[3];
-    for (int i = 0; i < 3; ++i)
-        line[i] = p->damper_lever_m * shank[i] - anchor[i];
-    const double length = bt_norm(line), stroke = p->damper_length_m - length;
-    const double force =
-        bt_hook_damper_gas_force(damper, stroke) + bt_hook_damper_limit_force(damper, stroke, 0);
-    // the lever arm of a force along `line`: positive when it turns the shank down
-    const double arm = p->damper_lever_m * (shank[0] * line[2] - shank[2] * line[0]) / length;
-    return force * arm + p->mass_kg * gravity_mps2 * p->mass_centre_m * cos(angle_rad);
-}
-
-/// Shank angle at which the hook hangs on its down stop (secant steps from the stop).
-static double hanging_angle(const bt_hook_params* p, const bt_hook_damper* damper,
-                            double gravity_mps2) {
-    double a = p->down_stop_rad, b = a + 1e-4;
-    double fa = hanging_moment(p, damper, a, gravity_mps2);
-    for (int i = 0; i < 30 && b != a; ++i) {
-        const double fb = hanging_moment(p, damper, b, gravity_mps2);
-        if (fb == fa)
-            break;
-        const double c = b - fb * (b - a) / (fb - fa);
-        a = b;
-        fa = fb;
-        b = c;
-    }
-    return b;
-}
-
 /// Mass, place and inertia of the fuselage: the whole aircraft less its parts.
 static bt_status add_fuselage(const bt_aircraft_params* p, const bt_body_def* parts, bt_airframe* f,
                               bt_diag* diag) {
@@ -304,10 +257,12 @@ static bt_status assemble(const bt_aircraft_params* p, double gravity_mps2, bt_a
         bt_oleo oleo;
         bt_oleo_prepare(&gear->oleo, &oleo);
         f->stroke_m[leg] =
-            hanging_stroke(&oleo, felt * (gear->piston_mass_kg + gear->wheel_mass_kg),
-                           gear->oleo.stop_stiffness_Npm);
+            bt_oleo_hanging_stroke(&oleo, felt * (gear->piston_mass_kg + gear->wheel_mass_kg));
     }
-    f->hook_angle_rad = hanging_angle(&p->hook, &damper, felt);
+    const bt_hook_params* hook = &p->hook;
+    f->hook_angle_rad = bt_hook_hold_hanging_angle(
+        &damper, hook->down_stop_rad, hook->damper_lever_m, hook->damper_angle_rad,
+        hook->damper_length_m, hook->mass_kg * felt * hook->mass_centre_m, 0);
 
     bt_body_def parts[BT_BODY_COUNT] = {0};
     describe_parts(p, f, parts);
