@@ -4,6 +4,31 @@
 /// A bt_system is the model: built once, constant after bt_system_assemble, shared by threads.
 /// A bt_state is one motion of it: one block of memory, copied with memcpy.
 ///
+/// How to build a pendulum, swing it for a second and read what holds it:
+///
+///     bt_system* system;
+///     bt_system_create(&system);
+///     bt_system_set_gravity(system, (double[]){0, 0, -9.81});
+///     int bob = bt_system_add_body(system, &(bt_body_def){
+///         .name = "bob", .mass_kg = 2, .inertia_kgm2 = {0.1, 0.1, 0.01},
+///         .position_m = {0.6, 0, 0}, .attitude = {1, 0, 0, 0}});
+///     int pivot = bt_system_add_joint(system, &(bt_joint_def){
+///         .name = "pivot", .kind = BT_JOINT_REVOLUTE, .body_a = BT_GROUND, .body_b = bob,
+///         .point_a_m = {0, 0, 0}, .point_b_m = {-0.6, 0, 0}, // of the ground, of the bob
+///         .axis_a = {0, 1, 0}, .axis_b = {0, 1, 0}});
+///     bt_system_assemble(system, &diag);           // checks, closes, orders; errors go to diag
+///     bt_arena arena;
+///     bt_state state;
+///     bt_arena_create(&arena, bt_state_size(system));
+///     bt_state_create(system, &arena, &state);
+///     for (int i = 0; i < 1000; ++i)
+///         bt_system_step(system, &state, 1e-3, BT_INTEGRATOR_SECOND_ORDER, &failure);
+///     double force[3], torque[3];
+///     bt_system_joint_load(system, &state, pivot, force, torque);
+///
+/// (those that return a status want it checked). Springs, dampers and torques are elements:
+/// elements/spring.h and elements/torque.h, or your own bt_element_type.
+///
 /// Frames. World: inertial. A body's frame has its origin at the centre of mass. Coordinates of a
 /// body: position (x, y, z) in the world and Euler parameters (e0, e1, e2, e3), body to world.
 /// Velocities: of the centre of mass in the world, angular velocity in the body frame.
@@ -46,14 +71,18 @@ typedef enum bt_joint_kind {
     BT_JOINT_DISTANCE,       ///< 1: distance between the two points is length_m
 } bt_joint_kind;
 
-/// A joint is given in the frames of its bodies (in the world frame for BT_GROUND).
+/// A joint is given in the frames of its bodies (in the world frame for BT_GROUND). Joints may
+/// close loops and may be redundant: what follows from other joints is counted and said in a note.
 typedef struct bt_joint_def {
     const char* name; ///< copied
     bt_joint_kind kind;
     int body_a, body_b;
     double point_a_m[3], point_b_m[3];
     double axis_a[3], axis_b[3]; ///< normalised on entry. For UNIVERSAL the two arms of the cross.
-                                 ///< For the others axis_b is the same axis seen from b
+                                 ///< For the others axis_b is the same line seen from b; all zero
+                                 ///< = as the given attitudes have it. Not used by SPHERICAL,
+                                 ///< FIXED and DISTANCE; POINT_ON_LINE and POINT_ON_PLANE use
+                                 ///< axis_a only
     double length_m;             ///< DISTANCE only, > 0
     double attitude_ab[4];       ///< FIXED and PRISMATIC: attitude of b relative to a; all zero =
                                  ///< the one at assembly
@@ -62,8 +91,8 @@ typedef struct bt_joint_def {
 /// What an element may see of the motion.
 typedef struct bt_motion {
     double time_s;
-    const double* q; ///< [7 * body_count]
-    const double* v; ///< [6 * body_count]
+    const double* q;        ///< [7 * body_count]
+    const double* v;        ///< [6 * body_count]
     const double* rotation; ///< [9 * body_count] row-major, body to world, made from q
 } bt_motion;
 
@@ -103,8 +132,10 @@ int bt_system_add_joint(bt_system* system, const bt_joint_def* def);
 int bt_system_add_element(bt_system* system, const bt_element* def);
 void bt_system_set_gravity(bt_system* system, const double gravity_mps2[3]);
 
-/// Checks bodies and joints, chooses the elimination order, and finds the consistent initial
-/// conditions nearest to the given ones (mass metric). Errors name the body or joint.
+/// Checks bodies and joints, chooses the elimination order, and finds consistent initial conditions
+/// next to the given ones: Newton steps that are shortest in the mass metric, so heavy bodies move
+/// little. All errors of the input are reported at once; each names its body, joint or element.
+/// BT_ERR_INPUT, BT_ERR_MEMORY.
 BT_CHECKED bt_status bt_system_assemble(bt_system* system, bt_diag* diag);
 
 int bt_system_body_count(const bt_system* system);
@@ -113,8 +144,7 @@ int bt_system_redundant_count(const bt_system* system); ///< dependent constrain
 int bt_system_body_find(const bt_system* system, const char* name);
 int bt_system_joint_find(const bt_system* system, const char* name);
 int bt_system_element_find(const bt_system* system, const char* name);
-const double* bt_system_element_output(const bt_system* system, const bt_state* state,
-                                       int element);
+const double* bt_system_element_output(const bt_system* system, const bt_state* state, int element);
 
 /// One motion: everything that changes, in one block.
 struct bt_state {
@@ -123,7 +153,7 @@ struct bt_state {
     double* q;        ///< [7 * body_count]
     double* v;        ///< [6 * body_count]
     double* a;        ///< [6 * body_count] accelerations at the last evaluation
-    double* lambda;   ///< [constraint_count] multipliers at the last evaluation
+    double* lambda;   ///< [constraint_count] multipliers there: M a = F + G^T lambda
     double* applied;  ///< [6 * body_count] outside wrench, mean over the coming step; yours to set
     double* output;   ///< element outputs, see bt_system_element_output
     double* rotation; ///< [9 * body_count]
@@ -138,8 +168,14 @@ size_t bt_state_size(const bt_system* system); ///< bytes of arena it takes
 void bt_state_copy(const bt_system* system, bt_state* to, const bt_state* from);
 
 typedef enum bt_integrator {
-    BT_INTEGRATOR_SECOND_ORDER, ///< one evaluation and factorisation per step
-    BT_INTEGRATOR_FOURTH_ORDER, ///< for verification
+    /// Constrained leapfrog, one force evaluation and one factorisation per step. Conservative
+    /// systems keep their energy up to a bounded error, free bodies their momenta to rounding.
+    /// Stable for omega h < 2 (springs) and c h / m < 1 (dampers). No memory of earlier steps but
+    /// the accelerations.
+    BT_INTEGRATOR_SECOND_ORDER,
+    /// Classical Runge-Kutta on accelerations and projection: five factorisations or more per step,
+    /// for verification. `applied` is constant over the step.
+    BT_INTEGRATOR_FOURTH_ORDER,
 } bt_integrator;
 
 /// Where and why a step failed; element or body name, quantity.
@@ -150,25 +186,31 @@ typedef struct bt_failure {
 } bt_failure;
 
 /// Advances by h: forces, KKT solve, advance, project. Allocates nothing. h may change from call
-/// to call. BT_ERR_NUMERIC with *failure filled when something is no longer finite or the
-/// constraints cannot be met.
+/// to call. BT_ERR_NUMERIC with *failure (may be NULL) filled when something is no longer finite or
+/// the constraints cannot be met; the state is then of no further use. BT_ERR_ARG for h <= 0.
+/// After the step state->a, lambda and output belong to its end. They contain `applied` as it was
+/// during the step; the next step takes the difference into account.
 BT_CHECKED bt_status bt_system_step(const bt_system* system, bt_state* state, double h_s,
                                     bt_integrator integrator, bt_failure* failure);
 
 /// Accelerations, multipliers and outputs at the present q, v (and `applied`) without moving.
+/// Enough after a change by hand that breaks no joint; bt_system_project after any other.
 BT_CHECKED bt_status bt_system_evaluate(const bt_system* system, bt_state* state,
                                         bt_failure* failure);
 
-/// After q or v were changed by hand: back onto the constraints, in the mass metric.
+/// After q or v were changed by hand: back onto the constraints, in the mass metric. The next step
+/// evaluates accelerations anew.
 BT_CHECKED bt_status bt_system_project(const bt_system* system, bt_state* state,
                                        bt_failure* failure);
 
 /// Audit, at any time.
 typedef struct bt_audit {
-    double kinetic_J, potential_J; ///< potential: gravity and elements with energy
+    double kinetic_J, potential_J;                  ///< potential: gravity and elements with energy
     double momentum_Ns[3], angular_momentum_Nms[3]; ///< about the world origin
-    double position_residual, velocity_residual; ///< largest constraint error over its scale
-    double norm_error;                           ///< largest | |e| - 1 |
+    /// Largest constraint error over its scale. Positions: the size of the joint (largest of its
+    /// arms and its bodies' radii of gyration), or 1 rad. Velocities: largest speed of its bodies.
+    double position_residual, velocity_residual;
+    double norm_error; ///< largest | |e| - 1 |
 } bt_audit;
 void bt_system_audit(const bt_system* system, const bt_state* state, bt_audit* audit);
 
