@@ -15,5 +15,8 @@ void bench_row(const char* name, double value, const char* unit, const char* pee
 void bench_keep(const void* pointer);
 
 void bench_mechanics(void);
+void bench_cable(void);
+void bench_landing(void);
+void bench_surrogate(void);
 
 #endif

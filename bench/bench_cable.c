@@ -13,8 +13,6 @@
 #include <mujoco/mujoco.h>
 #endif
 
-void bench_cable(void);
-
 enum { SEGMENTS = 200, REPEATS = 20, STEPS = 500 };
 enum { KERNEL_TARGET_NS = 18, EQUILIBRIUM_TARGET_MS = 5 };
 

@@ -15,8 +15,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-void bench_surrogate(void);
-
 enum { DIMS = 4, REPEATS = 5 };
 
 /// A synthetic limit state: two curved bands in the box [-1, 1]^4, with some label noise.

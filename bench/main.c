@@ -9,6 +9,9 @@ static const struct {
     void (*run)(void);
 } groups[] = {
     {"mechanics", bench_mechanics},
+    {"cable", bench_cable},
+    {"landing", bench_landing},
+    {"surrogate", bench_surrogate},
 };
 
 int main(int argc, char** argv) {

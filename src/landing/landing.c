@@ -68,6 +68,10 @@ void bt_lander_destroy(bt_lander* lander) {
     free(lander);
 }
 
+size_t bt_lander_memory(const bt_lander* lander) {
+    return sizeof *lander + lander->arena.size;
+}
+
 /// Builds the airframe unless the last run's is the same.
 static bt_status prepare_airframe(bt_lander* l, const bt_model_params* p, bt_diag* diag) {
     if (l->has_airframe && memcmp(&l->built.aircraft, &p->aircraft, sizeof p->aircraft) == 0 &&

@@ -57,6 +57,9 @@ typedef struct bt_lander bt_lander;
 BT_CHECKED bt_status bt_lander_create(bt_lander** lander);
 void bt_lander_destroy(bt_lander* lander);
 
+/// Bytes that a lander holds, all in all.
+size_t bt_lander_memory(const bt_lander* lander);
+
 struct bt_landing_view; ///< landing/view.h: what an observer may look at
 
 /// Called at the start, after every airframe step, and at the end.
