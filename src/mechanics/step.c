@@ -148,8 +148,16 @@ static void carry_momenta(const bt_system* system, bt_state* state) {
     }
 }
 
+static void first_kick_and_drift(const bt_system* system, bt_state* state, double h) {
+    first_kick(system, state, 0.5 * h);
+    for (int b = 0; b < system->body_count; ++b)
+        drift(system, state, b, h);
+}
+
 /// One step of the constrained leapfrog: kick, drift onto the constraints, forces, kick onto the
-/// constraints' tangent. One force evaluation and one factorisation.
+/// constraints' tangent. One force evaluation and one factorisation. Where the constraint
+/// directions of the start cannot close the end (very long steps, positions where a mechanism
+/// branches) the end is projected along its own.
 static bool step_second_order(const bt_system* system, bt_state* state, double h,
                               bt_failure* failure) {
     bt_work* work = bt_work_of(state);
@@ -158,12 +166,14 @@ static bool step_second_order(const bt_system* system, bt_state* state, double h
     int worst;
     memcpy(work->rotation_old, state->rotation, sizeof(double) * 9 * n);
     memcpy(work->q_old, state->q, sizeof(double) * 7 * n);
-    first_kick(system, state, 0.5 * h);
-    for (int b = 0; b < system->body_count; ++b)
-        drift(system, state, b, h);
-    if (!close_drift(system, state, h, &worst))
-        return bt_fail(failure, worst >= 0 ? system->joints[worst].name : "body",
-                       "position constraint", end_s);
+    first_kick_and_drift(system, state, h);
+    if (!close_drift(system, state, h, &worst)) {
+        memcpy(state->rotation, work->rotation_old, sizeof(double) * 9 * n);
+        first_kick_and_drift(system, state, h);
+        if (!(bt_close_positions(system, state, 50, 0.5, &worst, failure) <= BT_CLOSED_ENOUGH))
+            return bt_fail(failure, worst >= 0 ? system->joints[worst].name : "body",
+                           "position constraint", end_s);
+    }
     carry_momenta(system, state);
     state->time_s = end_s;
     if (!bt_forces(system, state, end_s, work->v_mean, failure) ||
