@@ -196,6 +196,8 @@ static void write_study(FILE* out, const bt_study* study, const bt_node* root) {
     write_group(out, &bt_reliability_group, &study->reliability, 1,
                 bt_node_child(root, "reliability"));
     write_conditions(out, study);
+    fputs("rigs:\n", out);
+    write_group(out, &bt_rigs_group, &study->rigs, 1, bt_node_child(root, "rigs"));
 }
 
 char* bt_study_echo(const bt_study* study, const bt_node* root) {

@@ -29,6 +29,7 @@ static const chapter chapters[] = {
     {"reliability", &bt_reliability_group,
      "Further key: `conditions` maps paths of `uncertainty` to the means that are gone through\n"
      "one by one (`landing.pitch: [1 deg, 2 deg]`).\n"},
+    {"rigs", &bt_rigs_group, NULL},
 };
 enum { CHAPTERS = sizeof chapters / sizeof chapters[0] };
 

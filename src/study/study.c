@@ -15,14 +15,6 @@ static const char* const chapters[] = {"title",       "aircraft", "deck",      "
                                        "uncertainty", "campaign", "surrogate", "reliability",
                                        "rigs",        NULL};
 
-/// The rigs that `rigs` may describe: name, table, and where in bt_study its parameters stand.
-static const struct {
-    const char* name;
-    const bt_group* group;
-    size_t offset;
-} rigs[] = {{NULL, NULL, 0}};
-enum { RIGS_MAX = sizeof rigs / sizeof rigs[0] };
-
 /// One reading.
 typedef struct reading {
     bt_reader reader;
@@ -242,23 +234,6 @@ static void read_chapter(reading* r, const char* name, const bt_group* group, vo
         bt_reader_group(&r->reader, group, params, name, node, also);
 }
 
-static void read_rigs(reading* r) {
-    const char* names[RIGS_MAX + 1] = {NULL};
-    const bt_node* node = bt_node_child(r->root, "rigs");
-    if (!node || !bt_reader_is_mapping(&r->reader, node, "rigs"))
-        return;
-    for (int i = 0; i < RIGS_MAX && rigs[i].name; ++i) {
-        char path[64];
-        bt_reader_join(path, sizeof path, "rigs", rigs[i].name);
-        names[i] = rigs[i].name;
-        const bt_node* child = bt_node_child(node, rigs[i].name);
-        if (child)
-            bt_reader_group(&r->reader, rigs[i].group, (char*)r->study + rigs[i].offset, path,
-                            child, NULL);
-    }
-    bt_reader_known_keys(&r->reader, node, "rigs", names, NULL);
-}
-
 static void read_chapters(reading* r) {
     static const char* const campaign_maps[] = {"bounds", "levels", NULL};
     static const char* const reliability_maps[] = {"conditions", NULL};
@@ -272,7 +247,7 @@ static void read_chapters(reading* r) {
     read_chapter(r, "campaign", &bt_campaign_group, &study->campaign, campaign_maps);
     read_chapter(r, "surrogate", &bt_surrogate_group, &study->surrogate, NULL);
     read_chapter(r, "reliability", &bt_reliability_group, &study->reliability, reliability_maps);
-    read_rigs(r);
+    read_chapter(r, "rigs", &bt_rigs_group, &study->rigs, NULL);
 
     const bt_node* campaign = bt_node_child(r->root, "campaign");
     const bt_node* reliability = bt_node_child(r->root, "reliability");
@@ -291,6 +266,7 @@ static void set_defaults(bt_study* study) {
     bt_group_set_defaults(&bt_campaign_group, &study->campaign);
     bt_group_set_defaults(&bt_surrogate_group, &study->surrogate);
     bt_group_set_defaults(&bt_reliability_group, &study->reliability);
+    bt_group_set_defaults(&bt_rigs_group, &study->rigs);
 }
 
 /// studies/reference/study.yaml is studied in studies/reference/study.

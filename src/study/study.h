@@ -4,6 +4,7 @@
 
 #include "base/distribution.h"
 #include "landing/landing.h"
+#include "rigs/rigs.h"
 
 enum { BT_INPUT_MAX = 32, BT_CONDITION_MAX = 64, BT_PATH_MAX = 128 };
 
@@ -76,6 +77,7 @@ typedef struct bt_study {
     bt_campaign_params campaign;
     bt_surrogate_params surrogate;
     bt_reliability_params reliability;
+    bt_rigs_params rigs;
     int input_count;
     bt_input inputs[BT_INPUT_MAX]; ///< in the order of the model's tables
     int condition_count;

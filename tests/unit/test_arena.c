@@ -62,7 +62,7 @@ static void a_zeroed_arena_may_be_destroyed(void** state) {
 }
 
 /// The address sanitizer stops at such a request unless told that NULL is an answer.
-const char* __asan_default_options(void);
+__attribute__((visibility("default"))) const char* __asan_default_options(void);
 const char* __asan_default_options(void) {
     return "allocator_may_return_null=1";
 }

@@ -131,6 +131,7 @@ static void the_echo_reads_back_to_the_same_bits(void** state) {
         "campaign.bounds.aircraft.hook.mass=[1 kg, 500 kg]",
         "aircraft.main_gear.oleo.orifice_table=[[0 mm, 333 mm^2], [0.3 ft, 0.3 in^2]]",
         "surrogate.C=[0.3, 3e5]",
+        "rigs.main_drop={mass: 9.3 t, sink_speed: 20 ft/s, reference: {stroke_max: 571 mm}}",
     };
     bt_study a = read_reference(sets, sizeof sets / sizeof sets[0]), b;
     messages m;
@@ -142,6 +143,8 @@ static void the_echo_reads_back_to_the_same_bits(void** state) {
     assert_memory_equal(&a.surrogate, &b.surrogate, sizeof a.surrogate);
     assert_memory_equal(&a.campaign, &b.campaign, sizeof a.campaign);
     assert_memory_equal(&a.reliability, &b.reliability, sizeof a.reliability);
+    assert_memory_equal(&a.rigs, &b.rigs, sizeof a.rigs);
+    assert_true(a.rigs.main_drop.reference.stroke_max_m == 0.571);
     assert_int_equal(a.input_count, 6);
     assert_int_equal(a.input_count, b.input_count);
     for (int i = 0; i < a.input_count; ++i) {

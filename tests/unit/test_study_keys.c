@@ -46,6 +46,7 @@ static void every_unit_of_every_table_is_known(void** state) {
     bt_group_walk(&bt_campaign_group, unit_is_known, &count);
     bt_group_walk(&bt_surrogate_group, unit_is_known, &count);
     bt_group_walk(&bt_reliability_group, unit_is_known, &count);
+    bt_group_walk(&bt_rigs_group, unit_is_known, &count);
 }
 
 static bool row_is_sound(void* user, const bt_field* field, const char* path, size_t offset) {
@@ -67,6 +68,7 @@ static void every_row_has_a_meaning_and_a_fallback_inside_its_range(void** state
     bt_group_walk(&bt_campaign_group, row_is_sound, NULL);
     bt_group_walk(&bt_surrogate_group, row_is_sound, NULL);
     bt_group_walk(&bt_reliability_group, row_is_sound, NULL);
+    bt_group_walk(&bt_rigs_group, row_is_sound, NULL);
 }
 
 static bool key_is_told(void* user, const bt_field* field, const char* path, size_t offset) {
@@ -86,6 +88,7 @@ static void the_reference_tells_every_key(void** state) {
     bt_group_walk(&bt_campaign_group, key_is_told, c.text);
     bt_group_walk(&bt_surrogate_group, key_is_told, c.text);
     bt_group_walk(&bt_reliability_group, key_is_told, c.text);
+    bt_group_walk(&bt_rigs_group, key_is_told, c.text);
     static const char* const parts[] = {"\n## aircraft.nose_gear.oleo, aircraft.main_gear.oleo\n",
                                         "\n## uncertainty\n",
                                         "\n| weibull          | scale, shape, lower |\n",
