@@ -101,13 +101,13 @@ static bt_status build(const bt_gear_params* gear, const bt_drop_params* drop, d
     return bt_rig_start(&d->rig, drop->gravity_mps2);
 }
 
-enum { STROKE, STROKE_RATE, STRUT_FORCE, SINKAGE, TYRE, TYRE_FORCE, DRAG, SPIN, CHANNELS };
+enum { STROKE, STROKE_RATE, STRUT_FORCE, SINKAGE, TYRE, TYRE_FORCE, DRAG, SPIN };
 
-static const char* const channel_names[CHANNELS] = {
+const char* const bt_drop_channels[BT_DROP_CHANNELS] = {
     "stroke_m",           "stroke_rate_mps", "strut_force_N", "sinkage_m",
     "tyre_compression_m", "tyre_force_N",    "drag_force_N",  "wheel_spin_radps"};
 
-static void look(const drop_rig* d, double channel[CHANNELS]) {
+static void look(const drop_rig* d, double channel[BT_DROP_CHANNELS]) {
     const double* strut = bt_rig_output(&d->rig, d->strut);
     const double* wheel = bt_rig_output(&d->rig, d->wheel);
     channel[STROKE] = strut[BT_STRUT_STROKE];
@@ -122,13 +122,13 @@ static void look(const drop_rig* d, double channel[CHANNELS]) {
 
 /// What is kept of a run: extremes, the work of the strut while it first shortens, spin-up.
 typedef struct record {
-    double most[CHANNELS];
+    double most[BT_DROP_CHANNELS];
     double work_J, last_stroke, last_force, spin_up_s;
     bool extending;
 } record;
 
-static void keep(record* r, const drop_rig* d, const double channel[CHANNELS]) {
-    for (int i = 0; i < CHANNELS; ++i)
+static void keep(record* r, const drop_rig* d, const double channel[BT_DROP_CHANNELS]) {
+    for (int i = 0; i < BT_DROP_CHANNELS; ++i)
         r->most[i] = fmax(r->most[i], channel[i]);
     r->extending |= channel[STROKE_RATE] < 0 && channel[STROKE] > 0;
     if (!r->extending)
@@ -163,15 +163,15 @@ static bt_status run(const bt_gear_params* gear, const bt_drop_params* drop, dro
     BT_TRY(build(gear, drop, d));
     BT_TRY(bt_rig_evaluate(&d->rig));
     record r = {.spin_up_s = NAN};
-    double channel[CHANNELS];
+    double channel[BT_DROP_CHANNELS];
     look(d, channel);
-    bt_rig_show(&d->rig, CHANNELS, channel_names, channel);
+    bt_rig_show(&d->rig, BT_DROP_CHANNELS, bt_drop_channels, channel);
     while (d->rig.state.time_s < drop->duration_s - 0.5 * drop->step_s) {
         d->rig.state.applied[6 * BODY_MASS + 2] = d->lift_N;
         BT_TRY(bt_rig_step(&d->rig, drop->step_s));
         look(d, channel);
         keep(&r, d, channel);
-        bt_rig_show(&d->rig, CHANNELS, channel_names, channel);
+        bt_rig_show(&d->rig, BT_DROP_CHANNELS, bt_drop_channels, channel);
     }
     report(drop, &r, d, result);
     return BT_OK;

@@ -218,13 +218,13 @@ static bt_status build(const bt_hook_params* hook, const bt_rebound_params* p, r
     return bt_rig_start(&r->rig, p->gravity_mps2);
 }
 
-enum { HEIGHT, FORCE, X, DAMPER_STROKE, DAMPER_FORCE, BASKET, CHANNELS };
+enum { HEIGHT, FORCE, X, DAMPER_STROKE, DAMPER_FORCE, BASKET };
 
-static const char* const channel_names[CHANNELS] = {"hook_height_m",  "hook_force_N",
-                                                    "hook_x_m",       "damper_stroke_m",
-                                                    "damper_force_N", "basket_sinkage_m"};
+const char* const bt_rebound_channels[BT_REBOUND_CHANNELS] = {"hook_height_m",  "hook_force_N",
+                                                              "hook_x_m",       "damper_stroke_m",
+                                                              "damper_force_N", "basket_sinkage_m"};
 
-static void look(const rebound_rig* r, double basket_start_m, double channel[CHANNELS]) {
+static void look(const rebound_rig* r, double basket_start_m, double channel[BT_REBOUND_CHANNELS]) {
     const double* shoe = bt_rig_output(&r->rig, r->shoe);
     const double* damper = bt_rig_output(&r->rig, r->damper);
     channel[HEIGHT] = shoe[BT_SHOE_HEIGHT];
@@ -243,7 +243,7 @@ typedef struct bounce {
     double last_height_m, last_time_s, from_x_m, to_x_m;
 } bounce;
 
-static void follow(bounce* b, double time_s, const double channel[CHANNELS]) {
+static void follow(bounce* b, double time_s, const double channel[BT_REBOUND_CHANNELS]) {
     b->damper_m = fmax(b->damper_m, channel[DAMPER_STROKE]);
     const double rise = (channel[HEIGHT] - b->last_height_m) / (time_s - b->last_time_s);
     b->last_height_m = channel[HEIGHT];
@@ -287,9 +287,9 @@ static bt_status run(const bt_hook_params* hook, const bt_rebound_params* p, reb
     BT_TRY(bt_rig_evaluate(&r->rig));
     const double basket_start = r->rig.state.q[7 * BODY_BASKET + 2];
     bounce b = {0};
-    double channel[CHANNELS];
+    double channel[BT_REBOUND_CHANNELS];
     look(r, basket_start, channel);
-    bt_rig_show(&r->rig, CHANNELS, channel_names, channel);
+    bt_rig_show(&r->rig, BT_REBOUND_CHANNELS, bt_rebound_channels, channel);
     double sink = p->sink_speed_mps;
     while (r->rig.state.time_s < p->duration_s && !b.complete) {
         const double before = channel[HEIGHT], step = next_step(p, &b, sink);
@@ -298,7 +298,7 @@ static bt_status run(const bt_hook_params* hook, const bt_rebound_params* p, reb
         look(r, basket_start, channel);
         sink = (before - channel[HEIGHT]) / step;
         follow(&b, r->rig.state.time_s, channel);
-        bt_rig_show(&r->rig, CHANNELS, channel_names, channel);
+        bt_rig_show(&r->rig, BT_REBOUND_CHANNELS, bt_rebound_channels, channel);
     }
     report(p, &b, r, result);
     return BT_OK;

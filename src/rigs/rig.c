@@ -20,6 +20,26 @@ BT_DEFINE_GROUP(rigs, BT_RIGS_FIELDS, ROW, NULL, "verification rigs")
 #undef ROW
 // clang-format on
 
+const char* const bt_rig_keys[] = {"nose_drop", "main_drop", "hook_rebound", NULL};
+
+const char* const* bt_rig_channels(bt_rig_kind kind, int* count) {
+    const bool rebound = kind == BT_RIG_HOOK_REBOUND;
+    *count = rebound ? BT_REBOUND_CHANNELS : BT_DROP_CHANNELS;
+    return rebound ? bt_rebound_channels : bt_drop_channels;
+}
+
+bt_status bt_rig_run(bt_rig_kind kind, const bt_aircraft_params* aircraft,
+                     const bt_rigs_params* rigs, bt_rig_result* result, bt_rig_observer* observer,
+                     void* user, bt_diag* diag) {
+    if (kind == BT_RIG_HOOK_REBOUND)
+        return bt_rig_run_rebound(&aircraft->hook, &rigs->hook_rebound, result, observer, user,
+                                  diag);
+    const bool nose = kind == BT_RIG_NOSE_DROP;
+    return bt_rig_run_drop(nose ? &aircraft->nose_gear : &aircraft->main_gear,
+                           nose ? &rigs->nose_drop : &rigs->main_drop, result, observer, user,
+                           diag);
+}
+
 bt_status bt_rig_open(bt_rig* rig, bt_rig_observer* observer, void* user, bt_diag* diag) {
     *rig = (bt_rig){.observer = observer, .user = user, .diag = diag};
     return bt_system_create(&rig->system);
@@ -71,9 +91,10 @@ void bt_rig_show(const bt_rig* rig, int count, const char* const* names, const d
 void bt_rig_add(bt_rig_result* result, const char* name, const char* unit, double value,
                 double reference, double tolerance) {
     bt_metric* m = &result->metrics[result->metric_count++];
-    *m = (bt_metric){name, unit, value, NAN, NAN, true};
+    *m = (bt_metric){name, unit, value, NAN, NAN, NAN, true};
     if (!(reference > 0))
         return;
+    m->tolerance = tolerance;
     m->reference = reference;
     m->error_percent = 100 * (value - reference) / reference;
     m->accepted = fabs(m->error_percent) <= 100 * tolerance;

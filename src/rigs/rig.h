@@ -5,6 +5,10 @@
 #include "mechanics/system.h"
 #include "rigs/rigs.h"
 
+extern const char* const bt_drop_channels[];
+extern const char* const bt_rebound_channels[];
+enum { BT_DROP_CHANNELS = 8, BT_REBOUND_CHANNELS = 6 };
+
 /// A system in motion with the memory of its state.
 typedef struct bt_rig {
     bt_system* system;

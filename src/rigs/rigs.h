@@ -55,6 +55,15 @@ BT_DECLARE_GROUP(rebound, BT_REBOUND_FIELDS)
 BT_DECLARE_GROUP(rigs, BT_RIGS_FIELDS)
 // clang-format on
 
+typedef enum bt_rig_kind {
+    BT_RIG_NOSE_DROP,
+    BT_RIG_MAIN_DROP,
+    BT_RIG_HOOK_REBOUND,
+    BT_RIG_COUNT
+} bt_rig_kind;
+
+extern const char* const bt_rig_keys[]; ///< "nose_drop", "main_drop", "hook_rebound", NULL
+
 /// One number that a rig reports.
 typedef struct bt_metric {
     const char* name; ///< with its unit, as a key: "stroke_max_m"
@@ -62,6 +71,7 @@ typedef struct bt_metric {
     double value;
     double reference;     ///< NAN where there is none
     double error_percent; ///< of the value against the reference; NAN where there is none
+    double tolerance;     ///< error that is accepted, as a share; NAN where there is no reference
     bool accepted;        ///< no reference, or an error within its tolerance
 } bt_metric;
 
@@ -85,6 +95,16 @@ typedef struct bt_rig_sample {
 
 /// Called at the start and after every step.
 typedef void bt_rig_observer(void* user, const bt_rig_sample* sample);
+
+enum { BT_RIG_CHANNEL_MAX = 16 };
+
+/// The names of a rig's histories, in the order of bt_rig_sample.values.
+const char* const* bt_rig_channels(bt_rig_kind kind, int* count);
+
+/// Runs the rig of a kind on the part of the aircraft that it tests; see the two below.
+BT_CHECKED bt_status bt_rig_run(bt_rig_kind kind, const bt_aircraft_params* aircraft,
+                                const bt_rigs_params* rigs, bt_rig_result* result,
+                                bt_rig_observer* observer, void* user, bt_diag* diag);
 
 /// Drop of one leg: the mass falls on it in guides, the wheel turns freely over a platform or belt.
 ///
