@@ -78,6 +78,9 @@ static void apply_slice(bt_wheel_contact* contact, bt_cable_state* cable, int se
                           .u_m = bt_dot(offset, plane->heading),
                           .w_m = bt_dot(offset, plane->up),
                           .size_m = radius_m};
+    const double reach = tyre->radius + radius_m;
+    if (rope.u_m * rope.u_m + rope.w_m * rope.w_m >= reach * reach)
+        return;
     bt_envelope envelope;
     bt_tyre_envelope(tyre, plane->height_m, &rope, 1, &envelope);
     if (!(envelope.bump[0].area_m2 > 0))

@@ -116,15 +116,17 @@ static bt_status prepare_cable(bt_lander* l, const bt_model_params* p, bt_diag* 
 
 /// What the wheels and the hook bring to the cable.
 static void prepare_contacts(run* r) {
-    const bt_lander* l = r->lander;
+    bt_lander* l = r->lander;
     const bt_cable_params* cable = &r->params->deck.cable;
     const bt_hook_cable_params* contact = &r->params->aircraft.hook.cable_contact;
-    for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        l->airframe.tyre[leg].strips = (int)r->params->landing.solver.tyre_strips;
         r->wheel_contact[leg] = (bt_wheel_contact){.tyre = &l->airframe.tyre[leg],
                                                    .width_m = l->airframe.tyre_width_m[leg],
                                                    .friction = cable->wheel_friction,
                                                    .slip_speed_mps = contact->slip_speed_mps,
                                                    .hint = -1};
+    }
     r->hook_contact = (bt_hook_contact){.profile = &l->airframe.profile,
                                         .stiffness = contact->stiffness_Npm2,
                                         .damping = 2 * contact->damping_ratio *
