@@ -80,7 +80,7 @@ BT_DECLARE_GROUP(deck, BT_DECK_FIELDS)
 #define BT_SOLVER_FIELDS(F)                                                                        \
     F(REAL, airframe_step, s, OPTIONAL, 2e-4, 1e-7, 1e-2, "", "step of the airframe while nothing hits hard") \
     F(REAL, contact_step, s, OPTIONAL, 1e-4, 1e-7, 1e-2, "", "step of the airframe around an impact of the hook on the deck, and while it is near the cable") \
-    F(PLAIN, cable_courant, _, OPTIONAL, 0.9, 0.05, 1, "", "cable step over its stable step") \
+    F(PLAIN, cable_courant, _, OPTIONAL, 0.97, 0.05, 1, "", "cable step over its stable step") \
     F(COUNT, tyre_strips, _, OPTIONAL, 16, 4, 2000, "Eqs. 6-7", "narrow strips of a tyre's disc over the cable's part of the contact patch") \
     F(REAL, past_cable, m, OPTIONAL, 1.0, 0.05, 50, "Eq. 18", "the run ends when the hook point is this far past the cable") \
     F(REAL, after_catch, s, OPTIONAL, 5e-3, 0, 1, "Eq. 18", "or this long after the throat has caught it")
