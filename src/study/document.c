@@ -252,3 +252,18 @@ bt_status bt_document_parse(bt_document* document, const char* data, size_t size
     yaml_parser_delete(&p.yaml);
     return p.status;
 }
+
+bt_node* bt_node_take(bt_node* parent, const char* key) {
+    bt_node* node = bt_node_child(parent, key);
+    if (!node)
+        return NULL;
+    bt_node* before = NULL;
+    for (bt_node* child = parent->first; child != node; child = child->next)
+        before = child;
+    *(before ? &before->next : &parent->first) = node->next;
+    if (parent->last == node)
+        parent->last = before;
+    --parent->count;
+    node->next = NULL;
+    return node;
+}

@@ -53,6 +53,9 @@ void bt_node_append(bt_node* parent, bt_node* key, bt_node* child);
 /// Gives a node the content and place of another; its key and its siblings stay.
 void bt_node_replace(bt_node* node, const bt_node* by);
 
+/// Takes the child with this key out of a mapping; NULL when there is none (or parent is NULL).
+bt_node* bt_node_take(bt_node* parent, const char* key);
+
 /// The child with this key, NULL when there is none (or node is no mapping, or NULL).
 bt_node* bt_node_child(const bt_node* node, const char* key);
 

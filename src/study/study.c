@@ -3,6 +3,7 @@
 #include "study/echo.h"
 #include "study/inputs.h"
 #include "study/reader.h"
+#include "study/rig_inputs.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -22,6 +23,7 @@ typedef struct reading {
     bt_document names; ///< texts of `where.file`; outlive the reading
     const char* path;  ///< of the study file
     bool files;        ///< other files may be named
+    bool rigs_will_do; ///< a description of rigs is enough
     bt_node* root;
     bt_study* study;
 } reading;
@@ -234,6 +236,14 @@ static void read_chapter(reading* r, const char* name, const bt_group* group, vo
         bt_reader_group(&r->reader, group, params, name, node, also);
 }
 
+static void read_model(reading* r) {
+    bt_study* study = r->study;
+    if (r->rigs_will_do && bt_rig_inputs_alone(r->root))
+        bt_rig_inputs_read_parts(&r->reader, &r->document, r->root, study);
+    else
+        bt_reader_group(&r->reader, &bt_model_group, &study->model, "", r->root, chapters);
+}
+
 static void read_chapters(reading* r) {
     static const char* const campaign_maps[] = {"bounds", "levels", NULL};
     static const char* const reliability_maps[] = {"conditions", NULL};
@@ -241,7 +251,8 @@ static void read_chapters(reading* r) {
     const int before = r->reader.errors;
 
     read_title(r, bt_node_child(r->root, "title"));
-    bt_reader_group(&r->reader, &bt_model_group, &study->model, "", r->root, chapters);
+    bt_rig_inputs_take(&r->reader, &r->names, r->files ? r->path : NULL, r->root, study);
+    read_model(r);
     if (r->root->kind != BT_NODE_MAPPING)
         return;
     read_chapter(r, "campaign", &bt_campaign_group, &study->campaign, campaign_maps);
@@ -254,8 +265,10 @@ static void read_chapters(reading* r) {
     bt_inputs_read(&r->reader, study, bt_node_child(r->root, "uncertainty"),
                    bt_node_child(campaign, "bounds"), bt_node_child(campaign, "levels"),
                    bt_node_child(reliability, "conditions"));
-    if (r->reader.errors == before)
+    if (r->reader.errors == before && !study->rigs_only)
         bt_reader_check(&r->reader, &bt_model_group, &study->model, "", r->root);
+    if (r->reader.errors == before)
+        bt_rig_inputs_check(&r->reader, r->root, study);
 }
 
 // --- together -------------------------------------------------------------------------------
@@ -327,11 +340,12 @@ static reading* begin(const char* path, bt_study* study, bool files) {
     return r;
 }
 
-bt_status bt_study_read(const char* path, const char* const* sets, int set_count, bt_study* study,
-                        bt_diag* diag) {
+static bt_status read_file(const char* path, const char* const* sets, int set_count,
+                           bool rigs_will_do, bt_study* study, bt_diag* diag) {
     reading* r = begin(path, study, true);
     if (!r)
         return BT_ERR_MEMORY;
+    r->rigs_will_do = rigs_will_do;
     bt_status status = load_and_parse(r, path, &r->root);
     if (status == BT_ERR_IO)
         bt_reader_error(&r->reader, (bt_where){r->path, 0, 0}, "cannot be read: %s",
@@ -341,6 +355,16 @@ bt_status bt_study_read(const char* path, const char* const* sets, int set_count
     status = finish(r, status, diag);
     free(r);
     return status;
+}
+
+bt_status bt_study_read(const char* path, const char* const* sets, int set_count, bt_study* study,
+                        bt_diag* diag) {
+    return read_file(path, sets, set_count, false, study, diag);
+}
+
+bt_status bt_study_read_rigs(const char* path, const char* const* sets, int set_count,
+                             bt_study* study, bt_diag* diag) {
+    return read_file(path, sets, set_count, true, study, diag);
 }
 
 bt_status bt_study_read_text(const char* name, const char* text, size_t size,

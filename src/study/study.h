@@ -71,6 +71,18 @@ typedef struct bt_condition {
     double mean; ///< SI
 } bt_condition;
 
+enum { BT_CURVES_MAX = 8 };
+
+/// What a study says of one rig beside its parameters.
+typedef struct bt_rig_input {
+    bool given; ///< the study describes this rig
+    int curve_count;
+    struct {
+        const char* path; ///< CSV file of a measured curve
+        bt_where where;   ///< where it is named
+    } curves[BT_CURVES_MAX];
+} bt_rig_input;
+
 typedef struct bt_study {
     char title[256]; ///< the file's name when it gives none
     bt_model_params model;
@@ -78,6 +90,9 @@ typedef struct bt_study {
     bt_surrogate_params surrogate;
     bt_reliability_params reliability;
     bt_rigs_params rigs;
+    bt_rig_input rig_inputs[BT_RIG_COUNT];
+    bool
+        rigs_only; ///< no landing is described: `model` holds the tested parts of the aircraft only
     int input_count;
     bt_input inputs[BT_INPUT_MAX]; ///< in the order of the model's tables
     int condition_count;
@@ -88,7 +103,7 @@ typedef struct bt_study {
                           ///< distributions), design, seed; not of the number of samples (a
                           ///< campaign may grow), threads, comments or later chapters
     char directory[4096]; ///< the study directory: -o, or the file's name without .yaml beside it
-    struct bt_node* places; ///< owns the file names of `where`
+    struct bt_node* places; ///< owns the file names of `where` and of curves
 } bt_study;
 
 /// Reads, checks and converts a study file with its --set overrides. All errors are collected
@@ -98,8 +113,14 @@ BT_CHECKED bt_status bt_study_read(const char* path, const char* const* sets, in
                                    bt_study* study, bt_diag* diag);
 void bt_study_destroy(bt_study* study);
 
-/// The same for a text in memory; `name` is its name in messages. Other files cannot be named in
-/// it (BT_ERR_INPUT).
+/// The same, but a file without `deck` and `landing` that has `rigs` may describe no more than the
+/// parts of the aircraft that its rigs test (rigs_only). They need not say where on the aircraft
+/// they stand.
+BT_CHECKED bt_status bt_study_read_rigs(const char* path, const char* const* sets, int set_count,
+                                        bt_study* study, bt_diag* diag);
+
+/// As bt_study_read for a text in memory; `name` is its name in messages. Other files cannot be
+/// named in it (BT_ERR_INPUT).
 BT_CHECKED bt_status bt_study_read_text(const char* name, const char* text, size_t size,
                                         const char* const* sets, int set_count, bt_study* study,
                                         bt_diag* diag);

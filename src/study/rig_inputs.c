@@ -1,0 +1,151 @@
+#include "study/rig_inputs.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { PATH_SIZE = 4096 };
+
+/// The part of the aircraft that each rig tests.
+static const char* const parts[BT_RIG_COUNT] = {"nose_gear", "main_gear", "hook"};
+
+// --- measured curves --------------------------------------------------------------------------
+
+/// The name of a file beside the one that names it; NULL when it is too long or memory is out.
+static const char* path_of(bt_document* names, const char* study_path, const bt_node* node) {
+    char path[PATH_SIZE];
+    const char* from = node->where.line > 0 ? node->where.file : study_path;
+    const char* slash = strrchr(from, '/');
+    const int folder = slash && *node->text != '/' ? (int)(slash - from) + 1 : 0;
+    const int length = snprintf(path, sizeof path, "%.*s%s", folder, from, node->text);
+    if (length < 0 || length >= PATH_SIZE)
+        return NULL;
+    const bt_node* kept = bt_document_node(names, BT_NODE_SCALAR, BT_NOWHERE, path, (size_t)length);
+    return kept ? kept->text : NULL;
+}
+
+static void take_curve(bt_reader* reader, bt_document* names, const char* study_path,
+                       const bt_node* node, const char* key, bt_rig_input* input) {
+    if (node->refused)
+        return;
+    if (node->kind != BT_NODE_SCALAR || *node->text == '\0') {
+        bt_reader_error(reader, node->where,
+                        "%s: the name of a CSV file is wanted here, or a sequence of such names",
+                        key);
+        return;
+    }
+    if (!study_path) {
+        bt_reader_error(reader, node->where, "%s: a file cannot be named here", key);
+        return;
+    }
+    if (input->curve_count == BT_CURVES_MAX) {
+        bt_reader_error(reader, node->where, "%s: more than %d curves", key, (int)BT_CURVES_MAX);
+        return;
+    }
+    const char* path = path_of(names, study_path, node);
+    if (!path) {
+        bt_reader_error(reader, node->where, "%s: the name is too long", key);
+        return;
+    }
+    input->curves[input->curve_count].path = path;
+    input->curves[input->curve_count++].where = node->where;
+}
+
+void bt_rig_inputs_take(bt_reader* reader, bt_document* names, const char* study_path,
+                        bt_node* root, bt_study* study) {
+    const bt_node* rigs = bt_node_child(root, "rigs");
+    for (int kind = 0; kind < BT_RIG_COUNT; ++kind) {
+        bt_rig_input* input = &study->rig_inputs[kind];
+        const bt_node* rig = bt_node_child(rigs, bt_rig_keys[kind]);
+        input->given = rig != NULL;
+        const bt_node* curve = bt_node_take(bt_node_child(rig, "reference"), "curve");
+        if (!curve)
+            continue;
+        char key[64];
+        snprintf(key, sizeof key, "rigs.%s.reference.curve", bt_rig_keys[kind]);
+        if (curve->kind != BT_NODE_SEQUENCE)
+            take_curve(reader, names, study_path, curve, key, input);
+        else
+            for (const bt_node* one = curve->first; one; one = one->next)
+                take_curve(reader, names, study_path, one, key, input);
+    }
+}
+
+// --- files that describe rigs only ------------------------------------------------------------
+
+bool bt_rig_inputs_alone(const bt_node* root) {
+    return bt_node_child(root, "rigs") && !bt_node_child(root, "deck") &&
+           !bt_node_child(root, "landing");
+}
+
+/// A length that says where a part stands: 0 where it is not given.
+static void place_at_origin(bt_document* document, bt_node* part, const char* key) {
+    if (part->kind != BT_NODE_MAPPING || bt_node_child(part, key))
+        return;
+    bt_node* name = bt_document_node(document, BT_NODE_SCALAR, part->where, key, strlen(key));
+    bt_node* value = bt_document_node(document, BT_NODE_SCALAR, part->where, "0 m", 3);
+    if (name && value)
+        bt_node_append(part, name, value);
+}
+
+static void read_part(bt_reader* reader, bt_document* document, bt_node* part, int kind,
+                      bt_aircraft_params* aircraft) {
+    char path[64];
+    bt_reader_join(path, sizeof path, "aircraft", parts[kind]);
+    if (kind == BT_RIG_HOOK_REBOUND) {
+        place_at_origin(document, part, "pivot_x");
+        place_at_origin(document, part, "pivot_z");
+        bt_reader_group(reader, &bt_hook_group, &aircraft->hook, path, part, NULL);
+        return;
+    }
+    place_at_origin(document, part, "station");
+    place_at_origin(document, part, "half_track");
+    place_at_origin(document, part, "underside");
+    bt_reader_group(reader, &bt_gear_group,
+                    kind == BT_RIG_NOSE_DROP ? &aircraft->nose_gear : &aircraft->main_gear, path,
+                    part, NULL);
+}
+
+void bt_rig_inputs_read_parts(bt_reader* reader, bt_document* document, bt_node* root,
+                              bt_study* study) {
+    static const char* const chapters[] = {"title", "aircraft", "rigs", NULL};
+    static const char* const known[] = {"nose_gear", "main_gear", "hook", NULL};
+    bt_aircraft_params* model = &study->model.aircraft;
+    bt_node* aircraft = bt_node_child(root, "aircraft");
+    study->rigs_only = true;
+    if (!bt_reader_is_mapping(reader, root, ""))
+        return;
+    bt_reader_known_keys(reader, root, "", chapters, NULL);
+    if (bt_node_child(aircraft, "mass")) { // a whole aircraft
+        bt_reader_group(reader, &bt_aircraft_group, model, "aircraft", aircraft, NULL);
+        return;
+    }
+    if (aircraft && bt_reader_is_mapping(reader, aircraft, "aircraft"))
+        bt_reader_known_keys(reader, aircraft, "aircraft", known, NULL);
+    for (int kind = 0; kind < BT_RIG_COUNT; ++kind) {
+        bt_node* part = bt_node_child(aircraft, parts[kind]);
+        const bt_node* rig = bt_node_child(bt_node_child(root, "rigs"), bt_rig_keys[kind]);
+        if (part)
+            read_part(reader, document, part, kind, model);
+        else if (rig)
+            bt_reader_error(reader, rig->key->where, "aircraft.%s: missing; rigs.%s tests it",
+                            parts[kind], bt_rig_keys[kind]);
+    }
+}
+
+// --- together ---------------------------------------------------------------------------------
+
+void bt_rig_inputs_check(bt_reader* reader, const bt_node* root, const bt_study* study) {
+    const bt_aircraft_params* aircraft = &study->model.aircraft;
+    const bt_node* rigs = bt_node_child(root, "rigs");
+    for (int kind = 0; kind < BT_RIG_HOOK_REBOUND; ++kind) {
+        const bool nose = kind == BT_RIG_NOSE_DROP;
+        const bt_gear_params* gear = nose ? &aircraft->nose_gear : &aircraft->main_gear;
+        const double mass = nose ? study->rigs.nose_drop.mass_kg : study->rigs.main_drop.mass_kg;
+        const double unsprung = gear->piston_mass_kg + gear->wheel_mass_kg;
+        const bt_node* node = bt_node_child(bt_node_child(rigs, bt_rig_keys[kind]), "mass");
+        if (node && mass <= unsprung)
+            bt_reader_error(reader, node->where,
+                            "rigs.%s.mass: %g kg is not above that of piston and wheel, %g kg",
+                            bt_rig_keys[kind], mass, unsprung);
+    }
+}

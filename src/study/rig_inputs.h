@@ -1,0 +1,26 @@
+/// What a study says of the rigs beyond their tables: measured curves, and files that describe no
+/// more than a rig needs.
+#ifndef BT_STUDY_RIG_INPUTS_H
+#define BT_STUDY_RIG_INPUTS_H
+
+#include "study/reader.h"
+#include "study/study.h"
+
+/// Takes `reference.curve` of every rig out of the tree into study->rig_inputs. The files are not
+/// opened; their names are relative to the file that names them and belong to `names`.
+/// @param study_path  NULL: no files may be named
+void bt_rig_inputs_take(bt_reader* reader, bt_document* names, const char* study_path,
+                        bt_node* root, bt_study* study);
+
+/// Whether a tree describes rigs and no landing.
+bool bt_rig_inputs_alone(const bt_node* root);
+
+/// Reads the parts of the aircraft that the rigs of such a tree test; what places them on an
+/// aircraft is put at the origin where it is missing.
+void bt_rig_inputs_read_parts(bt_reader* reader, bt_document* document, bt_node* root,
+                              bt_study* study);
+
+/// What rig and aircraft must agree on: the drop mass exceeds the unsprung mass.
+void bt_rig_inputs_check(bt_reader* reader, const bt_node* root, const bt_study* study);
+
+#endif
