@@ -233,6 +233,31 @@ static bt_status append(list* l, int value) {
     return BT_OK;
 }
 
+/// Sorts the sequence by height in the elimination tree. This changes neither fill nor operations,
+/// but neighbours in the sequence no longer wait for each other, and the processor overlaps them.
+static bt_status sort_by_height(bt_kkt* kkt, pattern* p, int* old) {
+    const int n = kkt->node_count;
+    int* height = p->mark; // its marks are no longer needed
+    int* first = calloc((size_t)n + 2, sizeof *first);
+    if (!first)
+        return BT_ERR_MEMORY;
+    memset(height, 0, sizeof *height * (size_t)n);
+    for (int i = 0; i < n; ++i) {
+        const int k = old[i] = kkt->sequence[i];
+        ++first[height[k] + 1];
+        if (p->later[k].count) {
+            const int parent = p->later[k].node[0];
+            height[parent] = height[parent] > height[k] ? height[parent] : height[k] + 1;
+        }
+    }
+    for (int h = 0; h < n; ++h)
+        first[h + 1] += first[h];
+    for (int i = 0; i < n; ++i)
+        kkt->sequence[first[height[old[i]]]++] = old[i];
+    free(first);
+    return BT_OK;
+}
+
 /// Fills p->later for every node.
 static bt_status eliminate(bt_kkt* kkt, const bt_kkt_joint* joints, pattern* p, list* children,
                            int* found) {
@@ -250,7 +275,7 @@ static bt_status eliminate(bt_kkt* kkt, const bt_kkt_joint* joints, pattern* p, 
         kkt->nodes[k].constant = k < kkt->body_count && children[k].count == 0;
     }
     kkt->fill_blocks = all - original;
-    return BT_OK;
+    return sort_by_height(kkt, p, found);
 }
 
 static int edge_to(const bt_kkt* kkt, int owner, int node) {

@@ -8,7 +8,7 @@
 /// operations that it needs.
 ///
 /// Order: a spanning tree of every connected part is eliminated from the leaves to the root, each
-/// body just before the joint that hangs it on its parent. Every body's pivot is then its mass
+/// body before the joint that hangs it on its parent. Every body's pivot is then its mass
 /// matrix plus positive semidefinite terms, every tree joint's pivot is negative definite (the
 /// joint acts on a body all of whose other joints are already eliminated), and no block fills in.
 /// A joint that closes a loop comes right after all other nodes of its loop: before that its pivot

@@ -130,7 +130,7 @@ static void every_body_is_eliminated_before_the_joint_that_hangs_it(void** state
     for (int i = 0; i < t.kkt.node_count; ++i)
         place[t.kkt.sequence[i]] = i;
     for (int b = 0; b < 4; ++b)
-        assert_int_equal(place[4 + t.kkt.parent_joint[b]], place[b] + 1);
+        assert_true(place[4 + t.kkt.parent_joint[b]] > place[b]);
     assert_int_equal(place[4], 7); // the joint to the ground is the last
     drop(&t);
 }
