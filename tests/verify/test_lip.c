@@ -1,0 +1,159 @@
+/// The lip criterion, quasi-statically: a piece of rope that is held back by a steady force is
+/// pushed slowly by the hook's head. It is scooped when its centre lies above the lip's, by more
+/// than friction can hold; goes under when it lies as much below; and stays between.
+#include "reference.h"
+
+#include "landing/cable_contact.h"
+#include "mechanics/vec.h"
+#include "tables.h"
+#include "test_cable_case.h"
+
+static const double level = 52 * 3.14159265358979323846 / 180;
+
+static const double slip_mps = 2e-5, step_s = 1e-5;
+enum { steps = 200000 };
+
+typedef enum where { UNDER = -1, HELD = 0, SCOOPED = 1 } where;
+
+/// The head with its shoe level; its lowest point hook_m above the deck.
+static bt_moving_body hook_over(const bt_hook_contact* contact, double x, double hook_m) {
+    const double c = cos(level), s = sin(level);
+    bt_moving_body hook = {.rotation = {c, 0, -s, 0, 1, 0, s, 0, c}};
+    double arm[3];
+    bt_rotate(hook.rotation, contact->shoe_m, arm);
+    hook.position_m[0] = x - arm[0];
+    hook.position_m[2] = hook_m + contact->profile->shoe_radius - arm[2];
+    bt_moving_body_to(&hook, 0);
+    return hook;
+}
+
+/// A piece of rope does not turn here: the rest of the rope is long and holds it.
+static void hold_attitude(rope* r) {
+    for (int i = 0; i < r->model.count; ++i) {
+        r->state.hx[i] = r->state.hy[i] = r->state.hz[i] = 0;
+        r->state.wx[i] = r->state.wy[i] = r->state.wz[i] = 0;
+        r->state.e0[i] = 1;
+        r->state.e1[i] = r->state.e2[i] = r->state.e3[i] = 0;
+        r->state.tx[i] = r->state.tz[i] = 0;
+        r->state.ty[i] = 1;
+    }
+}
+
+/// Pushes a rope whose centre is cable_m above the deck with a hook whose lowest point is hook_m
+/// above it.
+static where push(const bt_hook_profile_params* head, double friction, double hook_m,
+                  double cable_m) {
+    static const double hold_N = 2, drag = 2, speed = 0.02;
+    bt_profile profile;
+    assert_int_equal(bt_profile_build(head, 2.352, 0.01825, "head", &profile, NULL), BT_OK);
+    bt_cable_def def = rope_def(2, 0.1);
+    def.end[0].anchor_m[1] = -0.05;
+    def.end[1].anchor_m[1] = 0.05;
+    def.end[0].anchor_m[2] = def.end[1].anchor_m[2] = cable_m;
+    rope r;
+    rope_open(&r, &def, 0.1);
+    bt_hook_contact contact = {.profile = &profile,
+                               .shoe_m = {-1.059, 0, 0},
+                               .stiffness = 5e8,
+                               .damping = 2e4,
+                               .friction = friction,
+                               .slip_speed_mps = slip_mps,
+                               .hint = -1};
+    bt_moving_body hook = hook_over(&contact, 0, hook_m);
+    // the lip close behind the rope
+    double head_point[3], local[3] = {contact.shoe_m[0] + profile.lip[0], 0, profile.lip[1]};
+    bt_rotate(hook.rotation, local, head_point);
+    const double rise = hook.position_m[2] + head_point[2] - cable_m;
+    const double reach = profile.lip_radius + 0.01825;
+    const double behind = fabs(rise) < reach ? sqrt(reach * reach - rise * rise) : 0;
+    hook = hook_over(&contact, -behind - 1e-5 - (hook.position_m[0] + head_point[0]), hook_m);
+    hook.velocity_mps[0] = speed;
+
+    where end = HELD;
+    for (int k = 0; k < steps && end == HELD; ++k) {
+        bt_moving_body_to(&hook, k * step_s);
+        bt_cable_clear_loads(&r.model, &r.state);
+        for (int i = 0; i < 2; ++i) {
+            const double at[3] = {r.state.x[i], r.state.y[i], r.state.z[i]};
+            const double force[3] = {-0.5 * (hold_N + drag * r.state.vx[i]), 0,
+                                     -0.5 * drag * r.state.vz[i]};
+            bt_cable_add_load(&r.state, i, force, at);
+        }
+        bt_hook_contact_apply(&contact, &r.model, &r.state, &hook, step_s);
+        bt_cable_step(&r.model, &r.state, step_s);
+        hold_attitude(&r);
+        const double above = r.state.z[0] - contact.lip_m[2];
+        end = above > 0.9 * reach ? SCOOPED : above < -0.9 * reach ? UNDER : HELD;
+    }
+    rope_close(&r);
+    return end;
+}
+
+static bt_hook_profile_params head_with_lip(double lip_height_m) {
+    bt_hook_profile_params head;
+    bt_group_set_defaults(&bt_hook_profile_group, &head);
+    head.lip_height_m = lip_height_m;
+    if (lip_height_m > 0.031) { // keep mouth and shoe as they were
+        head.point_ahead_m = 0.058;
+        head.lip_radius_m = 0.012;
+    }
+    return head;
+}
+
+static void without_friction_it_is_scooped_when_the_lip_lies_below_its_centre(void** state) {
+    (void)state;
+    static const double lips[] = {0.024, 0.030, 0.034}, cables[] = {0.0185, 0.050, 0.075};
+    for (int l = 0; l < 3; ++l)
+        for (int c = 0; c < 3; ++c)
+            for (int side = -1; side <= 1; side += 2) {
+                const bt_hook_profile_params head = head_with_lip(lips[l]);
+                // hook bottom such that y_h + l is half a millimetre below or above y_c
+                const double hook_m = cables[c] - lips[l] - side * 5e-4;
+                assert_int_equal(push(&head, 0, hook_m, cables[c]), side > 0 ? SCOOPED : UNDER);
+            }
+}
+
+/// The height of rope over lip at which friction just holds, by bisection to 0.02 mm.
+static double boundary(const bt_hook_profile_params* head, double friction, where side) {
+    double held = 0, gone = 0.02;
+    while (gone - held > 2e-5) {
+        const double rise = 0.5 * (held + gone);
+        const where end =
+            push(head, friction, 0.075 - head->lip_height_m - (int)side * rise, 0.075);
+        if (end == HELD)
+            held = rise;
+        else {
+            assert_int_equal(end, side);
+            gone = rise;
+        }
+    }
+    return 0.5 * (held + gone);
+}
+
+/// y_h + l < y_c - (r + r_lip) sin(atan mu): the normal leans back by less than the friction angle.
+static void with_friction_the_criterion_moves_by_the_friction_angle(void** state) {
+    (void)state;
+    static const double frictions[] = {0.1, 0.2, 0.3};
+    const bt_hook_profile_params head = head_with_lip(0.030);
+    for (int k = 0; k < 3; ++k) {
+        const double want = (0.01825 + head.lip_radius_m) * sin(atan(frictions[k]));
+        char text[64];
+        snprintf(text, sizeof text, "rise of rope over lip that is scooped, mu %.1f, m",
+                 frictions[k]);
+        // regularised friction creeps by v = slip sqrt(h / 2e) where e is left to the boundary h:
+        // in the time given it crosses e = (slip time)^(2/3) (h / 2)^(1/3)
+        const double creep = 1.2 * pow(slip_mps * steps * step_s, 2.0 / 3) * cbrt(0.5 * want);
+        BT_VERIFY("lip criterion", text, boundary(&head, frictions[k], SCOOPED), want, creep,
+                  "friction angle");
+        BT_VERIFY("lip criterion", "the same downward: rope under lip that goes under, m",
+                  boundary(&head, frictions[k], UNDER), want, creep, "friction angle");
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(without_friction_it_is_scooped_when_the_lip_lies_below_its_centre),
+        cmocka_unit_test(with_friction_the_criterion_moves_by_the_friction_angle),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
