@@ -87,7 +87,6 @@ static void difference(const bt_cable_model* model, bt_cable_state* s, row* rows
 static void build(const bt_cable_model* model, bt_cable_state* s, row* rows) {
     static const double by[B] = {1e-7, 1e-7, 1e-6};
     memset(rows, 0, sizeof(row) * (size_t)model->count);
-    /* coordinates come back exactly: what moved is restored from a copy */
     for (int colour = 0; colour < 3; ++colour)
         for (int unknown = 0; unknown < B; ++unknown) {
             difference(model, s, rows, colour, unknown, by[unknown], 1);
@@ -185,42 +184,48 @@ static void symmetrise(const bt_cable_model* model, bt_cable_state* s) {
     }
 }
 
-/// Newton's method with the ends where they are. Returns the largest force left; infinite on
+/// One step of Newton's method; the resultants are those of the present shape, before and after.
+/// *full tells whether the whole step was taken. Returns false when the Jacobian is singular.
+static bool improve(const bt_cable_model* model, bt_cable_state* s, row* rows, bt_cable_state* keep,
+                    bool* full) {
+    const int n = model->count;
+    bt_cable_state_copy(model, keep, s); /* differences leave rounding errors in the coordinates */
+    build(model, s, rows);
+    bt_cable_state_copy(model, s, keep);
+    for (int i = 0; i < n; ++i)
+        resultant(s, i, rows[i].right);
+    if (!solve(rows, n))
+        return false;
+    double turn = 0;
+    for (int i = 0; i < n; ++i)
+        turn = fmax(turn, fabs(rows[i].right[2]));
+    /* rotations beyond 0.2 rad leave the range where the linearisation means anything */
+    *full = turn <= 0.2;
+    const double scale = *full ? 1 : 0.2 / turn;
+    for (int i = 0; i < n; ++i)
+        for (int a = 0; a < B; ++a)
+            move(s, i, a, -scale * rows[i].right[a]);
+    evaluate(model, s);
+    return true;
+}
+
+/// Newton's method with the anchors where they are. Returns the largest force left; infinite on
 /// failure.
 static double settle(const bt_cable_model* model, bt_cable_state* s, row* rows,
                      bt_cable_state* keep) {
-    const int n = model->count;
-    double best = INFINITY;
-    for (int k = 0; k < NEWTON_MAX; ++k) {
-        evaluate(model, s);
-        const double left = largest(model, s);
-        if (!isfinite(left))
-            return INFINITY;
+    evaluate(model, s);
+    double left = largest(model, s), best = INFINITY;
+    bool full = true;
+    for (int k = 0; k < NEWTON_MAX && isfinite(left); ++k) {
         /* at rounding level it no longer falls */
         if (left < 1e-4 && left > 0.5 * best)
             return left;
-        best = fmin(best, left);
-        bt_cable_state_copy(model, keep, s);
-        build(model, s, rows);
-        bt_cable_state_copy(model, s, keep);
-        double turn = 0, shift = 0;
-        for (int i = 0; i < n; ++i)
-            resultant(s, i, rows[i].right);
-        if (!solve(rows, n))
+        best = full ? fmin(best, left) : INFINITY;
+        if (!improve(model, s, rows, keep, &full))
             return INFINITY;
-        for (int i = 0; i < n; ++i) {
-            turn = fmax(turn, fabs(rows[i].right[2]));
-            shift = fmax(shift, fabs(rows[i].right[0]));
-        }
-        /* rotations beyond 0.2 rad leave the range where the linearisation means anything */
-        const double scale = turn > 0.2 ? 0.2 / turn : 1;
-        for (int i = 0; i < n; ++i)
-            for (int a = 0; a < B; ++a)
-                move(s, i, a, -scale * rows[i].right[a]);
-        if (scale < 1)
-            best = INFINITY;
+        left = largest(model, s);
     }
-    return best;
+    return left;
 }
 
 static bool hangs_clear(const bt_cable_model* model, const bt_cable_state* s, bt_diag* diag) {
@@ -279,12 +284,17 @@ bt_status bt_cable_equilibrium(const bt_cable_model* model, bt_cable_state* stat
         goto done;
     memset(state->vx, 0, 9 * (size_t)model->stride * sizeof(double)); /* v, h, w */
     state->scalars->last_step_s = 0;
-    double left = INFINITY;
-    for (int k = 0; k < ANCHOR_MAX; ++k) {
-        left = settle(model, state, rows, &keep);
-        if (!(left < 1e-3) || tune_anchors(model, state) < 1e-12)
+    double left = settle(model, state, rows, &keep);
+    bool full = true;
+    for (int k = 0; k < ANCHOR_MAX && left < 1e-3 && full; ++k) {
+        if (tune_anchors(model, state) < 1e-12)
             break;
+        evaluate(model, state);
+        if (!improve(model, state, rows, &keep, &full))
+            left = INFINITY;
     }
+    if (left < 1e-3)
+        left = settle(model, state, rows, &keep);
     symmetrise(model, state);
     evaluate(model, state);
     left = fmax(left, largest(model, state));
