@@ -151,12 +151,15 @@ static void fill_from_check(bt_reliability_row* row, const bt_check* check) {
     row->corrected_ci95 = r.corrected_ci95;
 }
 
+/// Everything but the name of the condition.
 static void clear_row(bt_reliability_row* row) {
-    bt_reliability_row fresh = {.unit = row->unit, .value = row->value};
-    memcpy(fresh.parameter, row->parameter, sizeof fresh.parameter);
-    fresh.disagreement = fresh.corrected = NAN;
-    fresh.disagreement_ci95 = fresh.corrected_ci95 = (bt_interval){NAN, NAN};
-    *row = fresh;
+    const bt_reliability_row before = *row;
+    memset(row, 0, sizeof *row);
+    memcpy(row->parameter, before.parameter, sizeof row->parameter);
+    row->unit = before.unit;
+    row->value = before.value;
+    row->disagreement = row->corrected = NAN;
+    row->disagreement_ci95 = row->corrected_ci95 = (bt_interval){NAN, NAN};
 }
 
 bt_status bt_reliability_condition(const bt_sampler* sampler, const bt_classifier* classifier,
