@@ -9,7 +9,8 @@
 #include <signal.h>
 #include <sys/wait.h>
 
-enum { RUNS = 160, KILL_AFTER = 70, COMMITTED_BY_THEN = 64 };
+/// Fewer than 64 finished runs are ever uncommitted.
+enum { RUNS = 160, KILL_AFTER = 100, COMMITTED_BY_THEN = KILL_AFTER - 63 };
 
 static bt_study study;
 
