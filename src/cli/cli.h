@@ -21,6 +21,8 @@ typedef struct bt_command {
     const char* words[BT_WORDS_MAX]; ///< what is no option: the file first
     int set_count;
     const char* sets[BT_SETS_MAX];
+    char overlay[16384]; ///< texts of `sets` that were read from files
+    size_t overlay_used;
     bool json, quiet;
     const char* output;                     ///< -o; NULL when not given
     const char* option[BT_OWN_OPTIONS_MAX]; ///< own options: argument, "" for a flag, or NULL
@@ -37,7 +39,8 @@ typedef struct bt_verb {
 } bt_verb;
 
 extern const bt_verb bt_verb_check, bt_verb_keys, bt_verb_land, bt_verb_campaign, bt_verb_replay,
-    bt_verb_fit, bt_verb_reliability, bt_verb_study, bt_verb_sweep;
+    bt_verb_fit, bt_verb_reliability, bt_verb_study, bt_verb_sweep, bt_verb_calibrate,
+    bt_verb_noise;
 
 /// Reads the words after the verb. On a mistake says so and ends the program with exit code 2.
 void bt_command_parse(const bt_verb* verb, int argc, char** argv, bt_command* command);

@@ -1,4 +1,4 @@
-#include "cli/cli.h"
+#include "cli/overlay.h"
 
 #include "base/units.h"
 
@@ -9,7 +9,9 @@
 
 static const struct argp_option common_options[] = {
     {"set", 's', "PATH=VALUE", 0,
-     "change one key of the study, for example --set landing.pitch='4 deg'; may be repeated", 10},
+     "change one key of the study, for example --set landing.pitch='4 deg'; @FILE reads lines "
+     "PATH: VALUE; may be repeated",
+     10},
     {"output", 'o', "PATH", 0, "where results go (default: a directory named after the study)", 10},
     {"json", 'j', 0, 0, "print one JSON object on standard output and nothing else", 10},
     {"quiet", 'q', 0, 0, "no progress, no remarks; errors are still printed", 10},
@@ -20,6 +22,12 @@ static error_t parse_option(int key, char* argument, struct argp_state* state) {
     bt_command* command = state->input;
     switch (key) {
     case 's':
+        if (*argument == '@') {
+            const bt_status status = bt_overlay_read(command, argument + 1);
+            if (status != BT_OK)
+                exit(bt_exit_code(status));
+            return 0;
+        }
         if (command->set_count == BT_SETS_MAX)
             argp_error(state, "more than %d --set", BT_SETS_MAX);
         command->sets[command->set_count++] = argument;

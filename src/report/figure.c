@@ -147,7 +147,7 @@ static void put_script(FILE* out, const bt_figure* figure) {
           "set border 3 lc rgb '#404040'\n"
           "set tics nomirror out\n"
           "set grid lc rgb '#d8d8d8' lt 1 lw 0.6\n"
-          "set key top right noenhanced samplen 2 spacing 1.2\n",
+          "set key outside below horizontal center noenhanced samplen 2 spacing 1.3\n",
           out);
     put_setting(out, "key title", figure->key_title);
     put_setting(out, "title", figure->title);

@@ -1,0 +1,200 @@
+#include "calibration/evaluate.h"
+
+#include "calibration/experiment.h"
+#include "campaign/executor.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { THREADS_MAX = 64 };
+
+bool bt_target_is_one_sided(const bt_target* target) {
+    return target->kind == BT_TARGET_AT_MOST || target->kind == BT_TARGET_AT_LEAST ||
+           target->kind == BT_TARGET_INCREASING || target->kind == BT_TARGET_DECREASING;
+}
+
+/// What the threads share: they take runs by number, each writes what is its own.
+typedef struct shared {
+    const bt_calibration* calibration;
+    const double* u;
+    int run_count;  ///< points times experiments
+    double* metric; ///< [run_count][BT_EXPERIMENT_METRIC_MAX]
+    double* rows;   ///< rows of curves receive what the model did
+    const atomic_int* stop;
+    atomic_int next;
+    pthread_mutex_t lock;
+    bt_status status;
+    bt_diag* diag; ///< used under the lock
+} shared;
+
+static void report(void* user, bt_severity severity, bt_where where, const char* text) {
+    shared* s = user;
+    pthread_mutex_lock(&s->lock);
+    bt_diag_add(s->diag, severity, where, "%s", text);
+    pthread_mutex_unlock(&s->lock);
+}
+
+// --- one run ----------------------------------------------------------------------------------
+
+/// The base with the parameters of a point and the overrides of an experiment.
+static void prepare(const bt_calibration* c, const double* u, const bt_experiment* experiment,
+                    bt_specimen* specimen) {
+    *specimen = c->base;
+    for (int i = 0; i < c->parameter_count; ++i) {
+        const bt_parameter* p = &c->parameters[i];
+        bt_field_set(p->field, specimen, p->offset, p->lower + u[i] * (p->upper - p->lower));
+    }
+    for (int i = 0; i < experiment->override_count; ++i)
+        bt_field_set(experiment->overrides[i].field, specimen, experiment->overrides[i].offset,
+                     experiment->overrides[i].value);
+}
+
+/// The curves that are measured on an experiment, with the rows their values go to.
+static int find_curves(const bt_calibration* c, int experiment, double* rows,
+                       bt_followed* followed) {
+    int count = 0;
+    for (int i = 0; i < c->target_count; ++i) {
+        const bt_target* target = &c->targets[i];
+        if (target->kind == BT_TARGET_CURVE && target->experiments[0] == experiment)
+            followed[count++] = (bt_followed){target->measured, rows + target->first_row};
+    }
+    return count;
+}
+
+static bt_status run_one(shared* s, int run, bt_lander* lander, bt_specimen* specimen,
+                         bt_diag* diag) {
+    const bt_calibration* c = s->calibration;
+    const int point = run / c->experiment_count, index = run % c->experiment_count;
+    const bt_experiment* experiment = &c->experiments[index];
+    bt_followed followed[BT_TARGET_MAX];
+    double* metric = s->metric + (size_t)run * BT_EXPERIMENT_METRIC_MAX;
+    const int count =
+        find_curves(c, index, s->rows + (size_t)point * (size_t)c->row_count, followed);
+    prepare(c, s->u + (size_t)point * (size_t)c->parameter_count, experiment, specimen);
+    if (bt_specimen_check(specimen, diag) == BT_OK)
+        return bt_experiment_run(lander, experiment->kind, specimen, metric, followed, count, diag);
+    // parameters that do not go together: no value, like a run that diverged
+    bt_experiment_void(metric, followed, count);
+    return BT_OK;
+}
+
+static void* work(void* argument) {
+    shared* s = argument;
+    bt_diag diag = {.sink = report, .user = s};
+    bt_lander* lander = NULL;
+    bt_specimen* specimen = malloc(sizeof *specimen);
+    bt_status status = specimen ? bt_lander_create(&lander) : BT_ERR_MEMORY;
+    while (status == BT_OK) {
+        if (s->stop && atomic_load(s->stop) != 0) {
+            status = BT_ERR_INTERRUPTED;
+            break;
+        }
+        const int run = atomic_fetch_add(&s->next, 1);
+        if (run >= s->run_count)
+            break;
+        status = run_one(s, run, lander, specimen, &diag);
+    }
+    bt_lander_destroy(lander);
+    free(specimen);
+    pthread_mutex_lock(&s->lock);
+    if (s->status == BT_OK)
+        s->status = status;
+    pthread_mutex_unlock(&s->lock);
+    return NULL;
+}
+
+static bt_status run_all(shared* s) {
+    pthread_t others[THREADS_MAX];
+    int started = 0;
+    const int wanted = bt_thread_count(s->calibration->threads);
+    pthread_mutex_init(&s->lock, NULL);
+    while (started < wanted - 1 && started < s->run_count - 1 && started < THREADS_MAX &&
+           pthread_create(&others[started], NULL, work, s) == 0)
+        ++started;
+    work(s);
+    for (int i = 0; i < started; ++i)
+        pthread_join(others[i], NULL);
+    pthread_mutex_destroy(&s->lock);
+    return s->status;
+}
+
+// --- residuals --------------------------------------------------------------------------------
+
+/// One residual of a trend, from two neighbours; of a constant, from the first value and this.
+static double trend_row(const bt_target* t, double before, double here) {
+    const double tolerance = t->relative ? t->tolerance * fabs(before) : t->tolerance;
+    const double change = here - before;
+    if (t->kind == BT_TARGET_CONSTANT)
+        return change / tolerance;
+    return 1 - (t->kind == BT_TARGET_INCREASING ? change : -change) / tolerance;
+}
+
+static double single_row(const bt_target* t, double got) {
+    const double tolerance = t->relative ? t->tolerance * fabs(t->wanted) : t->tolerance;
+    return (t->kind == BT_TARGET_AT_LEAST ? t->wanted - got : got - t->wanted) / tolerance;
+}
+
+/// Turns what the model did into residuals; returns the root mean square difference, SI.
+static double curve_rows(const bt_target* t, double* rows) {
+    double largest = 0, squares = 0;
+    for (int i = 0; i < t->row_count; ++i)
+        largest = fmax(largest, fabs(t->measured->y[i]));
+    const double tolerance = t->relative ? t->tolerance * largest : t->tolerance;
+    for (int i = 0; i < t->row_count; ++i) {
+        rows[i] -= t->measured->y[i];
+        squares += rows[i] * rows[i];
+        rows[i] /= tolerance;
+    }
+    return sqrt(squares / t->row_count);
+}
+
+static double target_rows(const bt_target* t, const double* metric, double* rows) {
+    if (t->kind == BT_TARGET_CURVE)
+        return curve_rows(t, rows);
+    double value[BT_LIST_MAX];
+    for (int i = 0; i < t->experiment_count; ++i)
+        value[i] = metric[t->experiments[i] * BT_EXPERIMENT_METRIC_MAX + t->metric];
+    if (t->experiment_count == 1) {
+        rows[0] = single_row(t, value[0]);
+        return value[0];
+    }
+    for (int i = 1; i < t->experiment_count; ++i)
+        rows[i - 1] = trend_row(t, value[t->kind == BT_TARGET_CONSTANT ? 0 : i - 1], value[i]);
+    return value[t->experiment_count - 1];
+}
+
+static void all_rows(const shared* s, int points, double* got) {
+    const bt_calibration* c = s->calibration;
+    for (int p = 0; p < points; ++p) {
+        const double* metric =
+            s->metric + (size_t)p * (size_t)c->experiment_count * BT_EXPERIMENT_METRIC_MAX;
+        double* rows = s->rows + (size_t)p * (size_t)c->row_count;
+        for (int i = 0; i < c->target_count; ++i) {
+            const double value =
+                target_rows(&c->targets[i], metric, rows + c->targets[i].first_row);
+            if (got)
+                got[p * c->target_count + i] = value;
+        }
+    }
+}
+
+bt_status bt_calibration_evaluate(const bt_calibration* calibration, const double* u, int points,
+                                  const atomic_int* stop, double* rows, double* got,
+                                  bt_diag* diag) {
+    shared s = {.calibration = calibration,
+                .u = u,
+                .run_count = points * calibration->experiment_count,
+                .rows = rows,
+                .stop = stop,
+                .diag = diag};
+    s.metric = calloc((size_t)s.run_count, BT_EXPERIMENT_METRIC_MAX * sizeof *s.metric);
+    if (!s.metric)
+        return BT_ERR_MEMORY;
+    const bt_status status = run_all(&s);
+    if (status == BT_OK)
+        all_rows(&s, points, got);
+    free(s.metric);
+    return status;
+}

@@ -1,0 +1,45 @@
+/// Running one experiment: a landing or a rig, what it reports, and its history beside a measured
+/// curve.
+#ifndef BT_CALIBRATION_EXPERIMENT_H
+#define BT_CALIBRATION_EXPERIMENT_H
+
+#include "calibration/calibration.h"
+
+enum { BT_EXPERIMENT_METRIC_MAX = 24 };
+
+typedef struct bt_metric_name {
+    const char* name;  ///< "bounce_height"
+    const char* token; ///< unit of its value
+} bt_metric_name;
+
+/// The metrics of a kind of experiment; ends with a NULL name. A landing: the first bounce
+/// (bounce_height, bounce_distance, impact_force), second_bounce_height, peak loads, strokes, and
+/// what the cable did (margin, throat_force_peak, cable_tension_max).
+const bt_metric_name* bt_experiment_metrics(bt_experiment_kind kind);
+
+/// "", "nose_drop.", "main_drop.", "hook_rebound.": what stands before a metric's name.
+const char* bt_experiment_prefix(bt_experiment_kind kind);
+
+/// A measured curve to follow and where its model values go.
+typedef struct bt_followed {
+    const bt_measured* measured;
+    double* got; ///< [measured->count]; NAN where the run did not reach
+} bt_followed;
+
+/// Runs one experiment on a checked specimen.
+/// @param metric   [BT_EXPERIMENT_METRIC_MAX]; NAN where there is none (no bounce, run failed)
+/// @return BT_OK also for a run that diverged (said in diag as a warning, all metrics NAN);
+///         BT_ERR_MEMORY
+BT_CHECKED bt_status bt_experiment_run(bt_lander* lander, bt_experiment_kind kind,
+                                       const bt_specimen* specimen, double* metric,
+                                       const bt_followed* followed, int followed_count,
+                                       bt_diag* diag);
+
+/// No value anywhere: what a run that was not possible reports.
+void bt_experiment_void(double* metric, const bt_followed* followed, int followed_count);
+
+/// Finds the columns of a measured curve in the history of an experiment (bt_measured_bind).
+BT_CHECKED bt_status bt_experiment_bind(bt_experiment_kind kind, bt_measured* measured,
+                                        bt_diag* diag);
+
+#endif

@@ -1,0 +1,54 @@
+#include "calibration/specimen.h"
+
+#include "base/text.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char rigs_prefix[] = "rigs.";
+enum { PREFIX_LENGTH = sizeof rigs_prefix - 1 };
+
+const bt_field* bt_specimen_find(const char* path, size_t* offset) {
+    const bool of_rigs = strncmp(path, rigs_prefix, PREFIX_LENGTH) == 0;
+    size_t inner = 0;
+    const bt_field* field = of_rigs ? bt_group_find(&bt_rigs_group, path + PREFIX_LENGTH, &inner)
+                                    : bt_group_find(&bt_model_group, path, &inner);
+    *offset = inner + (of_rigs ? offsetof(bt_specimen, rigs) : offsetof(bt_specimen, model));
+    return field;
+}
+
+typedef struct nearest {
+    const char *typed, *prefix;
+    char* best;
+    size_t size;
+    int distance;
+} nearest;
+
+static bool compare(void* user, const bt_field* field, const char* path, size_t offset) {
+    nearest* n = user;
+    char whole[160];
+    (void)offset;
+    if (field->kind > BT_FIELD_COUNT)
+        return true;
+    snprintf(whole, sizeof whole, "%s%s", n->prefix, path);
+    const int distance = bt_text_distance(n->typed, whole);
+    if (distance < n->distance) {
+        n->distance = distance;
+        snprintf(n->best, n->size, "%s", whole);
+    }
+    return true;
+}
+
+void bt_specimen_nearest(const char* typed, char* best, size_t size) {
+    nearest n = {.typed = typed, .prefix = "", .best = best, .size = size, .distance = INT_MAX};
+    bt_group_walk(&bt_model_group, compare, &n);
+    n.prefix = rigs_prefix;
+    bt_group_walk(&bt_rigs_group, compare, &n);
+}
+
+bt_status bt_specimen_check(const bt_specimen* specimen, bt_diag* diag) {
+    const bt_status model = bt_group_check(&bt_model_group, &specimen->model, "", diag);
+    const bt_status rigs = bt_group_check(&bt_rigs_group, &specimen->rigs, "rigs", diag);
+    return model != BT_OK ? model : rigs;
+}

@@ -1,0 +1,23 @@
+/// What an experiment is made on: the model of a landing and the rigs, addressed by one set of
+/// paths ("aircraft.hook.length", "landing.pitch", "rigs.nose_drop.sink_speed").
+#ifndef BT_CALIBRATION_SPECIMEN_H
+#define BT_CALIBRATION_SPECIMEN_H
+
+#include "rigs/rigs.h"
+
+typedef struct bt_specimen {
+    bt_model_params model;
+    bt_rigs_params rigs;
+} bt_specimen;
+
+/// Finds a field by its path. Returns NULL when there is none. *offset is that of the member in
+/// bt_specimen.
+const bt_field* bt_specimen_find(const char* path, size_t* offset);
+
+/// The path of a number nearest to what was typed, into `best`.
+void bt_specimen_nearest(const char* typed, char* best, size_t size);
+
+/// Checks model and rigs; messages as bt_group_check.
+BT_CHECKED bt_status bt_specimen_check(const bt_specimen* specimen, bt_diag* diag);
+
+#endif
