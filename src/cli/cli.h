@@ -40,7 +40,7 @@ typedef struct bt_verb {
 
 extern const bt_verb bt_verb_check, bt_verb_keys, bt_verb_land, bt_verb_campaign, bt_verb_replay,
     bt_verb_fit, bt_verb_reliability, bt_verb_study, bt_verb_sweep, bt_verb_calibrate,
-    bt_verb_noise;
+    bt_verb_noise, bt_verb_sensitivity;
 
 /// Reads the words after the verb. On a mistake says so and ends the program with exit code 2.
 void bt_command_parse(const bt_verb* verb, int argc, char** argv, bt_command* command);
