@@ -17,17 +17,20 @@ enum { LABEL_SIZE = 48, CORNERS = 3 };
 typedef struct plan {
     char name[160]; ///< of the figure
     const char *key, *values, *title;
-    const char* reference; ///< what the paper prints; NULL: nothing
+    const char* reference;       ///< what the paper prints; NULL: nothing
+    const char* reference_label; ///< in the figure
     double reference_height_mm, reference_distance_m;
 } plan;
 
 static const plan paper[] = {
     {"fig14", "landing.sink_speed", "3.6 m/s, 4 m/s, 5 m/s, 6.3 m/s",
-     "Hook bounce and sinking velocity (Fig. 14)", "paper, 6.3 m/s: 53 mm, at most 4 m", 53, 4},
+     "Hook bounce and sinking velocity (Fig. 14)", "paper, 6.3 m/s: 53 mm, at most 4 m",
+     "paper, 6.3 m/s", 53, 4},
     {"fig15", "landing.pitch", "0 deg, 2 deg, 4 deg, 6 deg, 8 deg",
-     "Hook bounce and pitch angle (Fig. 15)", "paper, 8 deg: 81 mm, 4.57 m", 81, 4.57},
+     "Hook bounce and pitch angle (Fig. 15)", "paper, 8 deg: 81 mm, 4.57 m", "paper, 8 deg", 81,
+     4.57},
     {"fig16", "landing.horizontal_speed", "55 m/s, 50 m/s, 45 m/s, 40 m/s",
-     "Hook bounce and horizontal velocity (Fig. 16)", NULL, 0, 0},
+     "Hook bounce and horizontal velocity (Fig. 16)", NULL, NULL, 0, 0},
 };
 enum { PAPER_COUNT = sizeof paper / sizeof paper[0] };
 

@@ -91,15 +91,25 @@ static void ramp_colour(int step, int count, char colour[8]) {
              (unsigned)part[2] & 255);
 }
 
+static void choose_colour(const bt_figure* figure, int index, char colour[8]) {
+    int before = 0, count = 0; // references have no part in the order
+    for (int i = 0; i < figure->series_count; ++i) {
+        const bool counts = figure->series[i].style != BT_SERIES_REFERENCE;
+        before += counts && i < index;
+        count += counts;
+    }
+    if (figure->series[index].style == BT_SERIES_REFERENCE)
+        snprintf(colour, 8, "#808080");
+    else if (figure->ordered)
+        ramp_colour(before, count, colour);
+    else
+        snprintf(colour, 8, "%s", distinct[before % DISTINCT_COUNT]);
+}
+
 static void put_style(FILE* out, const bt_figure* figure, int index) {
     char colour[8];
     const bt_series_style style = figure->series[index].style;
-    if (style == BT_SERIES_REFERENCE)
-        snprintf(colour, sizeof colour, "#808080");
-    else if (figure->ordered)
-        ramp_colour(index, figure->series_count, colour);
-    else
-        snprintf(colour, sizeof colour, "%s", distinct[index % DISTINCT_COUNT]);
+    choose_colour(figure, index, colour);
     static const char* const with[] = {"lines", "points", "linespoints", "lines"};
     fprintf(out, "with %s lc rgb '%s'", with[style], colour);
     if (style != BT_SERIES_POINTS)
@@ -114,13 +124,13 @@ static void put_plot(FILE* out, const bt_figure* figure) {
         const bt_series* series = &figure->series[i];
         if (series->low) {
             char colour[8];
-            ramp_colour(figure->ordered ? i : 0, figure->series_count, colour);
+            choose_colour(figure, i, colour);
             fprintf(out, "%sdata index %d using 1:2:3:4 with yerrorbars lc rgb '%s' pt 0 notitle",
-                    i ? ", \\\n     " : "", i,
-                    figure->ordered ? colour : distinct[i % DISTINCT_COUNT]);
+                    i ? ", \\\n     " : "", i, colour);
         }
         fprintf(out, "%sdata index %d using 1:2 ", i || series->low ? ", \\\n     " : "", i);
         put_style(out, figure, i);
+        fputs(series->second ? " axes x1y2" : "", out);
         fputs(series->label ? " title " : " notitle", out);
         if (series->label)
             put_quoted(out, series->label);
@@ -147,12 +157,15 @@ static void put_script(FILE* out, const bt_figure* figure) {
           "set border 3 lc rgb '#404040'\n"
           "set tics nomirror out\n"
           "set grid lc rgb '#d8d8d8' lt 1 lw 0.6\n"
-          "set key outside below horizontal center noenhanced samplen 2 spacing 1.3\n",
+          "set key outside right top vertical Left reverse noenhanced samplen 2 spacing 1.3\n",
           out);
     put_setting(out, "key title", figure->key_title);
     put_setting(out, "title", figure->title);
     put_setting(out, "xlabel", figure->x_label);
     put_setting(out, "ylabel", figure->y_label);
+    put_setting(out, "y2label", figure->y2_label);
+    if (figure->y2_label)
+        fputs("set border 11\nset ytics nomirror\nset y2tics\n", out);
     put_axes(out, figure);
     fprintf(out,
             "set terminal pngcairo size 1200,750 font 'DejaVu Sans,13' noenhanced\n"
