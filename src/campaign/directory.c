@@ -20,8 +20,7 @@ bt_status bt_file_path(char* buffer, const char* directory, const char* name) {
     return length < 0 || length >= BT_FILE_PATH_MAX ? BT_ERR_ARG : BT_OK;
 }
 
-/// mkdir -p
-static bt_status make_directories(const char* path, bt_diag* diag) {
+bt_status bt_directory_make(const char* path, bt_diag* diag) {
     char part[BT_FILE_PATH_MAX];
     if (strlen(path) >= sizeof part)
         return fail(diag, path, "cannot make the study directory", ENAMETOOLONG);
@@ -56,7 +55,7 @@ static bt_status say_busy(const bt_directory* directory, bt_diag* diag) {
 bt_status bt_directory_open(bt_directory* directory, const char* path, bt_diag* diag) {
     *directory = (bt_directory){.path = path, .lock = -1};
     char name[BT_FILE_PATH_MAX];
-    BT_TRY(make_directories(path, diag));
+    BT_TRY(bt_directory_make(path, diag));
     BT_TRY(bt_file_path(name, path, "lock"));
     directory->lock = open(name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (directory->lock < 0)

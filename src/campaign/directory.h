@@ -15,6 +15,9 @@ typedef struct bt_directory {
     int lock;         ///< descriptor; -1 when not held
 } bt_directory;
 
+/// Makes a directory and those above it, as mkdir -p. BT_ERR_IO, said in diag.
+BT_CHECKED bt_status bt_directory_make(const char* path, bt_diag* diag);
+
 /// Makes the directory (and those above it) and takes its lock. The lock goes with the process,
 /// however it ends. BT_ERR_IO, said in diag: cannot be made or written, or another process
 /// (named) works in it. `path` must outlive the directory.

@@ -1,6 +1,7 @@
 #include "campaign/design.h"
 #include "campaign/stable_step.h"
 #include "cli/cli.h"
+#include "report/rig_report.h"
 
 #include "base/units.h"
 
@@ -74,9 +75,49 @@ static void print_json(const bt_study* study, int64_t runs, const bt_stable_step
     bt_json_end_object(&json);
 }
 
+/// Reads every measured curve that the study names.
+static bt_status check_curves(const bt_study* study, bt_diag* diag) {
+    bt_status worst = BT_OK;
+    for (int kind = 0; kind < BT_RIG_COUNT; ++kind) {
+        bt_rig_curves curves;
+        const bt_status status = bt_rig_curves_read(study, (bt_rig_kind)kind, &curves, diag);
+        if (status == BT_OK)
+            bt_rig_curves_destroy(&curves);
+        worst = worst == BT_OK ? status : worst;
+    }
+    return worst;
+}
+
+/// A file that describes rigs only.
+static void print_rigs(const bt_command* command, const bt_study* study) {
+    bt_json json = {.out = stdout};
+    if (command->json) {
+        bt_json_begin_object(&json, NULL);
+        bt_json_string(&json, "title", study->title);
+        bt_json_begin_array(&json, "rigs");
+        for (int kind = 0; kind < BT_RIG_COUNT; ++kind)
+            if (study->rig_inputs[kind].given)
+                bt_json_string(&json, NULL, bt_rig_keys[kind]);
+        bt_json_end_array(&json);
+        bt_json_end_object(&json);
+    } else if (!command->quiet) {
+        printf("%s\n", study->title);
+        for (int kind = 0; kind < BT_RIG_COUNT; ++kind)
+            if (study->rig_inputs[kind].given)
+                printf("rig         %s, %d measured curves\n", bt_rig_keys[kind],
+                       study->rig_inputs[kind].curve_count);
+        printf("results     %s\n", study->directory);
+    }
+}
+
 static bt_status check(const bt_command* command, const bt_study* study) {
     bt_diag diag = bt_stderr_diag();
     bt_design* design = NULL;
+    BT_TRY(check_curves(study, &diag));
+    if (study->rigs_only) {
+        print_rigs(command, study);
+        return BT_OK;
+    }
     BT_TRY(bt_design_create(study, &design, &diag));
     const int64_t runs = bt_design_count(design);
     bt_design_destroy(design);
@@ -94,7 +135,7 @@ static bt_status check(const bt_command* command, const bt_study* study) {
 
 static bt_status run(const bt_command* command) {
     bt_study study;
-    BT_TRY(bt_command_study(command, &study));
+    BT_TRY(bt_command_rigs(command, &study));
     const bt_status status = check(command, &study);
     bt_study_destroy(&study);
     return status;
@@ -104,10 +145,12 @@ const bt_verb bt_verb_check = {
     .name = "check",
     .summary = "check a study file: every mistake with its place",
     .arguments = "STUDY.yaml",
-    .text = "Reads the study and the files it names, converts every value, and reports all "
-            "mistakes at once, each as file:line:column: error: key: what is wrong and what would "
-            "be right. If there are none it prints what the study will do and the largest stable "
-            "time step of each element beside the step used. Nothing is run or written.",
+    .text =
+        "Reads the study and the files it names, converts every value, and reports all "
+        "mistakes at once, each as file:line:column: error: key: what is wrong and what would "
+        "be right. If there are none it prints what the study will do and the largest stable "
+        "time step of each element beside the step used. Nothing is run or written. A file that "
+        "describes rigs only (see `bolter rig --help') is checked as such.",
     .least_words = 1,
     .most_words = 1,
     .run = run,

@@ -39,7 +39,7 @@ typedef struct bt_verb {
 } bt_verb;
 
 extern const bt_verb bt_verb_check, bt_verb_keys, bt_verb_land, bt_verb_campaign, bt_verb_replay,
-    bt_verb_fit, bt_verb_reliability, bt_verb_study, bt_verb_sweep, bt_verb_calibrate,
+    bt_verb_fit, bt_verb_reliability, bt_verb_study, bt_verb_sweep, bt_verb_calibrate, bt_verb_rig,
     bt_verb_noise, bt_verb_sensitivity;
 
 /// Reads the words after the verb. On a mistake says so and ends the program with exit code 2.
@@ -54,6 +54,9 @@ bt_diag bt_stderr_diag(void);
 /// Reads the study of a command (first word, --set, -o); says everything that is wrong with it.
 /// BT_OK: the caller owns it (bt_study_destroy).
 BT_CHECKED bt_status bt_command_study(const bt_command* command, bt_study* study);
+
+/// The same for what needs no landing: bt_study_read_rigs.
+BT_CHECKED bt_status bt_command_rigs(const bt_command* command, bt_study* study);
 
 /// Reports a wrong use of a verb and returns BT_ERR_ARG.
 bt_status bt_usage_error(const bt_command* command, const char* format, ...)

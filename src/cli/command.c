@@ -107,10 +107,13 @@ bt_diag bt_stderr_diag(void) {
     return (bt_diag){.sink = print_message};
 }
 
-bt_status bt_command_study(const bt_command* command, bt_study* study) {
+typedef bt_status study_reader(const char* path, const char* const* sets, int set_count,
+                               bt_study* study, bt_diag* diag);
+
+static bt_status read_study(const bt_command* command, study_reader* read, bt_study* study) {
     bt_diag diag = bt_stderr_diag();
     const char* file = command->words[0];
-    const bt_status status = bt_study_read(file, command->sets, command->set_count, study, &diag);
+    const bt_status status = read(file, command->sets, command->set_count, study, &diag);
     if (status != BT_OK) {
         fprintf(stderr, "%s: %d error%s, nothing was run\n", file, diag.errors,
                 diag.errors == 1 ? "" : "s");
@@ -119,6 +122,14 @@ bt_status bt_command_study(const bt_command* command, bt_study* study) {
     if (command->output)
         snprintf(study->directory, sizeof study->directory, "%s", command->output);
     return BT_OK;
+}
+
+bt_status bt_command_study(const bt_command* command, bt_study* study) {
+    return read_study(command, bt_study_read, study);
+}
+
+bt_status bt_command_rigs(const bt_command* command, bt_study* study) {
+    return read_study(command, bt_study_read_rigs, study);
 }
 
 bt_status bt_usage_error(const bt_command* command, const char* format, ...) {

@@ -22,11 +22,13 @@ typedef struct bt_series {
     int count;
     const double *x, *y;      ///< [count]; the caller's
     const double *low, *high; ///< [count] ends of the error bars; NULL: none
+    bool second;              ///< belongs to the second y axis, at the right
 } bt_series;
 
 typedef struct bt_figure {
     const char* name;                                  ///< of the files
     const char *title, *x_label, *y_label, *key_title; ///< may be NULL
+    const char* y2_label;                              ///< of a second y axis; NULL: there is none
     bool ordered;        ///< the series are steps of one quantity: colours from dark to light
     bool from_zero;      ///< the y axis begins at 0
     double x_max, y_max; ///< ends of the axes; 0: found by gnuplot

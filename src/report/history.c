@@ -1,7 +1,8 @@
 #include "report/history.h"
 
+#include "report/hdf5_text.h"
+
 #include <errno.h>
-#include <hdf5.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -121,39 +122,6 @@ void bt_history_observe(void* user, const bt_landing_view* view) {
     observe_cable(h, view);
 }
 
-static bool write_text(hid_t object, const char* name, const char* text) {
-    const hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
-    bool good = space >= 0 && type >= 0 && H5Tset_size(type, strlen(text) + 1) >= 0 &&
-                H5Tset_cset(type, H5T_CSET_UTF8) >= 0;
-    const hid_t attribute =
-        good ? H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT) : -1;
-    good = attribute >= 0 && H5Awrite(attribute, type, text) >= 0;
-    if (attribute >= 0)
-        good &= H5Aclose(attribute) >= 0;
-    if (type >= 0)
-        H5Tclose(type);
-    if (space >= 0)
-        H5Sclose(space);
-    return good;
-}
-
-/// The study's text as a dataset of one string: it may be longer than an attribute can be.
-static bool write_study(hid_t file, const char* text) {
-    const hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
-    bool good = space >= 0 && type >= 0 && H5Tset_size(type, strlen(text) + 1) >= 0 &&
-                H5Tset_cset(type, H5T_CSET_UTF8) >= 0;
-    const hid_t set =
-        good ? H5Dcreate2(file, "study", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT) : -1;
-    good = set >= 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0;
-    if (set >= 0)
-        good &= H5Dclose(set) >= 0;
-    if (type >= 0)
-        H5Tclose(type);
-    if (space >= 0)
-        H5Sclose(space);
-    return good;
-}
-
 /// Some columns of a matrix as one dataset, [n] when there is one column.
 typedef struct dataset {
     const rows* rows;
@@ -171,7 +139,8 @@ static bool write_columns(hid_t set, const dataset* d) {
                H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, H5S_ALL, H5P_DEFAULT, d->rows->data) >= 0;
     if (memory >= 0)
         H5Sclose(memory);
-    return good && write_text(set, "unit", d->unit) && write_text(set, "meaning", d->meaning);
+    return good && bt_hdf5_attribute(set, "unit", d->unit) &&
+           bt_hdf5_attribute(set, "meaning", d->meaning);
 }
 
 static bool write_dataset(hid_t file, hid_t links, const dataset* d) {
@@ -235,9 +204,10 @@ static bool write_all(const bt_history* h, hid_t file, const bt_study* study,
                       const bt_landing_result* result) {
     const hid_t links = H5Pcreate(H5P_LINK_CREATE);
     bool good = links >= 0 && H5Pset_create_intermediate_group(links, 1) >= 0;
-    good = good && write_text(file, "outcome", bt_outcome_name(result->outcome)) &&
-           write_text(file, "mode", bt_mode_name(result->mode)) &&
-           write_text(file, "title", study->title) && write_study(file, study->text);
+    good = good && bt_hdf5_attribute(file, "outcome", bt_outcome_name(result->outcome)) &&
+           bt_hdf5_attribute(file, "mode", bt_mode_name(result->mode)) &&
+           bt_hdf5_attribute(file, "title", study->title) &&
+           bt_hdf5_text(file, "study", study->text);
     for (int i = 0; i < CHANNEL_COUNT; ++i) {
         const dataset d = {
             &h->channel[i],     0, (size_t)channels[i].count, channels[i].name, channels[i].unit,

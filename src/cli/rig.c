@@ -1,0 +1,128 @@
+#include "campaign/directory.h"
+#include "cli/cli.h"
+#include "report/rig_report.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/// "nose-drop" -> BT_RIG_NOSE_DROP; the key's own spelling will do as well.
+static bool find_kind(const char* word, bt_rig_kind* kind) {
+    for (int k = 0; k < BT_RIG_COUNT; ++k) {
+        char name[32];
+        snprintf(name, sizeof name, "%s", bt_rig_keys[k]);
+        *strchr(name, '_') = '-';
+        if (strcmp(word, name) == 0 || strcmp(word, bt_rig_keys[k]) == 0) {
+            *kind = (bt_rig_kind)k;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool names_a_file(const char* output) {
+    const size_t length = output ? strlen(output) : 0;
+    return length > 3 && strcmp(output + length - 3, ".h5") == 0;
+}
+
+/// Histories where -o says; figures into the study directory unless only a file is wanted.
+static bt_status write_files(const bt_command* command, const bt_study* study,
+                             const bt_rig_record* record, const bt_rig_result* result,
+                             const bt_rig_curves* curves, bt_diag* diag) {
+    char folder[BT_FILE_PATH_MAX], path[BT_FILE_PATH_MAX], name[64];
+    if (names_a_file(command->output))
+        return bt_rig_record_write(record, command->output, study, result, diag);
+    BT_TRY(bt_file_path(folder, study->directory, "figures"));
+    BT_TRY(bt_directory_make(folder, diag));
+    if (command->output) {
+        snprintf(name, sizeof name, "%s.h5", bt_rig_keys[record->kind]);
+        BT_TRY(bt_file_path(path, study->directory, name));
+        BT_TRY(bt_rig_record_write(record, path, study, result, diag));
+    }
+    BT_TRY(bt_rig_draw(record, curves, folder, diag));
+    if (!command->json && !command->quiet)
+        printf("figures: %s\n", folder);
+    return BT_OK;
+}
+
+static void print(const bt_command* command, const bt_study* study, const bt_rig_record* record,
+                  const bt_rig_result* result, const bt_rig_curves* curves) {
+    if (command->json) {
+        bt_json json = {.out = stdout};
+        bt_json_begin_object(&json, NULL);
+        bt_json_string(&json, "rig", bt_rig_keys[record->kind]);
+        bt_json_string(&json, "title", study->title);
+        bt_rig_write_json(&json, result, record, curves);
+        bt_json_end_object(&json);
+    } else if (!command->quiet) {
+        printf("%s: %s\n", bt_rig_keys[record->kind], study->title);
+        bt_rig_print(stdout, result, record, curves);
+    }
+}
+
+static bt_status run_rig(const bt_command* command, const bt_study* study, bt_rig_kind kind,
+                         const bt_rig_curves* curves) {
+    bt_diag diag = bt_stderr_diag();
+    bt_rig_record record;
+    bt_rig_result result;
+    bt_rig_record_start(&record, kind);
+    bt_status status = bt_rig_run(kind, &study->model.aircraft, &study->rigs, &result,
+                                  bt_rig_record_observe, &record, &diag);
+    if (status == BT_OK) {
+        print(command, study, &record, &result, curves);
+        status = write_files(command, study, &record, &result, curves, &diag);
+    } else if (status == BT_ERR_NUMERIC)
+        status = BT_ERR_FAILED_RUNS;
+    bt_rig_record_destroy(&record);
+    return status;
+}
+
+static bt_status test(const bt_command* command, const bt_study* study, bt_rig_kind kind) {
+    bt_diag diag = bt_stderr_diag();
+    bt_rig_curves curves;
+    if (!study->rig_inputs[kind].given) {
+        bt_diag_add(&diag, BT_ERROR, (bt_where){.file = command->words[0]},
+                    "rigs.%s: missing; the study does not describe this test", bt_rig_keys[kind]);
+        return BT_ERR_INPUT;
+    }
+    BT_TRY(bt_rig_curves_read(study, kind, &curves, &diag));
+    const bt_status status = run_rig(command, study, kind, &curves);
+    bt_rig_curves_destroy(&curves);
+    return status;
+}
+
+static bt_status run(const bt_command* typed) {
+    bt_rig_kind kind;
+    if (!find_kind(typed->words[0], &kind))
+        return bt_usage_error(typed, "\"%s\" is none of nose-drop, main-drop, hook-rebound",
+                              typed->words[0]);
+    bt_command command = *typed;
+    command.words[0] = typed->words[1];
+    command.word_count = 1;
+    bt_study study;
+    BT_TRY(bt_command_rigs(&command, &study));
+    const bt_status status = test(&command, &study, kind);
+    bt_study_destroy(&study);
+    return status;
+}
+
+const bt_verb bt_verb_rig = {
+    .name = "rig",
+    .summary = "drop tests of the gear and the rebound test of the hook",
+    .arguments = "nose-drop STUDY.yaml\nmain-drop STUDY.yaml\nhook-rebound STUDY.yaml",
+    .text =
+        "Runs one of the rigs that the study's `rigs:' describes and prints its metrics beside "
+        "the reference values given there, with errors in percent. The figures go into "
+        "STUDY/figures (PNG, SVG, script and data), with the measured curves of "
+        "`reference.curve' as points.\n\n"
+        "  bolter rig nose-drop study.yaml\n"
+        "  bolter rig hook-rebound study.yaml --set rigs.hook_rebound.sink_speed='6.3 m/s'\n"
+        "  bolter rig main-drop study.yaml -o drop.h5    time histories (HDF5) and no figures\n"
+        "  bolter rig main-drop study.yaml -o results    histories and figures in that "
+        "directory\n\n"
+        "A file that holds `rigs:' and, under `aircraft:', only the leg or hook to be tested will "
+        "do. The exit code is 4 when the computation diverged; a metric that misses its reference "
+        "is marked, and is no error.",
+    .least_words = 2,
+    .most_words = 2,
+    .run = run,
+};

@@ -1,0 +1,207 @@
+#include "report/figure.h"
+#include "report/rig_report.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// One line of a figure.
+typedef struct trace {
+    const char *channel, *label;
+    double scale;
+    bool second; ///< axis at the right
+} trace;
+
+enum { TRACES_MAX = 2 };
+
+/// One of the rig's figures, over time.
+typedef struct plan {
+    bt_rig_kind kind;
+    const char *name, *title, *y_label, *y2_label;
+    bool impact; ///< only the first impact is shown
+    trace traces[TRACES_MAX];
+} plan;
+
+static const plan plans[] = {
+    {BT_RIG_NOSE_DROP,
+     "nose_drop_stroke",
+     "Drop of the nose gear: strut and centre of gravity (Fig. 9)",
+     "stroke, sinkage, mm",
+     NULL,
+     false,
+     {{"stroke_m", "stroke of the strut", 1e3, false},
+      {"sinkage_m", "sinkage of the centre of gravity", 1e3, false}}},
+    {BT_RIG_NOSE_DROP,
+     "nose_drop_tyre",
+     "Drop of the nose gear: tyre (Fig. 10)",
+     "compression, mm",
+     "load, kN",
+     false,
+     {{"tyre_compression_m", "compression (left)", 1e3, false},
+      {"tyre_force_N", "load (right)", 1e-3, true}}},
+    {BT_RIG_MAIN_DROP,
+     "main_drop_stroke",
+     "Drop of the main gear: strut and centre of gravity (Fig. 11)",
+     "stroke, sinkage, mm",
+     NULL,
+     false,
+     {{"stroke_m", "stroke of the strut", 1e3, false},
+      {"sinkage_m", "sinkage of the centre of gravity", 1e3, false}}},
+    {BT_RIG_MAIN_DROP,
+     "main_drop_tyre",
+     "Drop of the main gear: tyre (Fig. 12)",
+     "compression, mm",
+     "load, kN",
+     false,
+     {{"tyre_compression_m", "compression (left)", 1e3, false},
+      {"tyre_force_N", "load (right)", 1e-3, true}}},
+    {BT_RIG_HOOK_REBOUND,
+     "hook_rebound_height",
+     "Rebound of the hook: the head above the disc",
+     "height, mm",
+     "stroke of the damper, mm",
+     false,
+     {{"hook_height_m", "height of the head (left)", 1e3, false},
+      {"damper_stroke_m", "stroke of the damper (right)", 1e3, true}}},
+    {BT_RIG_HOOK_REBOUND,
+     "hook_rebound_impact",
+     "Rebound of the hook: load of the first impact",
+     "load, kN",
+     NULL,
+     true,
+     {{"hook_force_N", "load of the disc on the head", 1e-3, false}}},
+};
+enum { PLAN_COUNT = sizeof plans / sizeof plans[0] };
+
+/// The series of a figure with the numbers drawn, which it owns.
+typedef struct drawing {
+    bt_series series[TRACES_MAX + BT_CURVES_MAX];
+    double* numbers[2 * (TRACES_MAX + BT_CURVES_MAX)];
+    char labels[TRACES_MAX + BT_CURVES_MAX][96];
+    int count, number_count;
+} drawing;
+
+static double* scaled(drawing* d, const double* values, int count, double scale) {
+    double* copy = malloc((size_t)(count > 0 ? count : 1) * sizeof *copy);
+    if (!copy)
+        return NULL;
+    for (int i = 0; i < count; ++i)
+        copy[i] = scale * values[i];
+    return d->numbers[d->number_count++] = copy;
+}
+
+static void add(drawing* d, const char* label, bt_series_style style, const double* x,
+                const double* y, int count, double scale, bool second) {
+    const double* drawn = scaled(d, y, count, scale);
+    if (!drawn)
+        return;
+    snprintf(d->labels[d->count], sizeof d->labels[0], "%s", label);
+    d->series[d->count] = (bt_series){.label = d->labels[d->count],
+                                      .style = style,
+                                      .count = count,
+                                      .x = x,
+                                      .y = drawn,
+                                      .second = second};
+    ++d->count;
+}
+
+static int column_of(const bt_rig_record* record, const char* channel) {
+    int column = 1;
+    while (strcmp(record->names[column], channel) != 0)
+        ++column;
+    return column;
+}
+
+/// The file's name without its folder, for the key.
+static const char* base_name(const char* path) {
+    const char* slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static void add_measured(drawing* d, const bt_measured* m, double scale, bool second) {
+    char label[96];
+    snprintf(label, sizeof label, "%s (%.60s)", m->y_name, base_name(m->file));
+    add(d, label, BT_SERIES_POINTS, m->x, m->y, m->count, scale, second);
+}
+
+/// Until when the first impact lasts, and half as long again, s.
+static double impact_end_s(const bt_rig_record* record) {
+    const double* force = record->columns[column_of(record, "hook_force_N")];
+    const double* height = record->columns[column_of(record, "hook_height_m")];
+    int last = 0;
+    for (int i = 0; i < record->count && height[i] < 1e-3; ++i)
+        if (force[i] > 0)
+            last = i;
+    return 1.5 * record->columns[0][last];
+}
+
+static int rows_until(const bt_rig_record* record, double time_s) {
+    int rows = 0;
+    while (rows < record->count && record->columns[0][rows] <= time_s)
+        ++rows;
+    return rows;
+}
+
+static bt_status write(drawing* d, const bt_figure* about, const char* folder, bt_diag* diag) {
+    bt_figure figure = *about;
+    figure.series_count = d->count;
+    figure.series = d->series;
+    const bt_status status = bt_figure_write(&figure, folder, diag);
+    for (int i = 0; i < d->number_count; ++i)
+        free(d->numbers[i]);
+    return status;
+}
+
+static bt_status draw_plan(const plan* p, const bt_rig_record* record, const bt_rig_curves* curves,
+                           bool* drawn, const char* folder, bt_diag* diag) {
+    drawing d = {0};
+    const double end = p->impact ? impact_end_s(record) : record->columns[0][record->count - 1];
+    const int rows = rows_until(record, end);
+    for (int t = 0; t < TRACES_MAX && p->traces[t].channel; ++t) {
+        const trace* line = &p->traces[t];
+        const int column = column_of(record, line->channel);
+        add(&d, line->label, BT_SERIES_LINE, record->columns[0], record->columns[column], rows,
+            line->scale, line->second);
+        for (int i = 0; i < curves->count; ++i)
+            if (curves->measured[i]->x_column == 0 && curves->measured[i]->y_column == column) {
+                add_measured(&d, curves->measured[i], line->scale, line->second);
+                drawn[i] = true;
+            }
+    }
+    const bt_figure figure = {.name = p->name,
+                              .title = p->title,
+                              .x_label = "time from first contact, s",
+                              .y_label = p->y_label,
+                              .y2_label = p->y2_label,
+                              .x_max = end};
+    return write(&d, &figure, folder, diag);
+}
+
+/// A curve that no planned figure shows: its two columns as they are.
+static bt_status draw_curve(const bt_rig_record* record, const bt_measured* m, const char* folder,
+                            bt_diag* diag) {
+    drawing d = {0};
+    char name[192];
+    const char *x = record->names[m->x_column], *y = record->names[m->y_column];
+    snprintf(name, sizeof name, "%s_%s_over_%s", bt_rig_keys[record->kind], y, x);
+    add(&d, "computed", BT_SERIES_LINE, record->columns[m->x_column], record->columns[m->y_column],
+        record->count, 1, false);
+    add_measured(&d, m, 1, false);
+    const bt_figure figure = {.name = name, .x_label = x, .y_label = y};
+    return write(&d, &figure, folder, diag);
+}
+
+bt_status bt_rig_draw(const bt_rig_record* record, const bt_rig_curves* curves, const char* folder,
+                      bt_diag* diag) {
+    bool drawn[BT_CURVES_MAX] = {false};
+    if (record->out_of_memory)
+        return BT_ERR_MEMORY;
+    for (int i = 0; i < PLAN_COUNT; ++i)
+        if (plans[i].kind == record->kind)
+            BT_TRY(draw_plan(&plans[i], record, curves, drawn, folder, diag));
+    for (int i = 0; i < curves->count; ++i)
+        if (!drawn[i])
+            BT_TRY(draw_curve(record, curves->measured[i], folder, diag));
+    return BT_OK;
+}

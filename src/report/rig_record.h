@@ -1,0 +1,33 @@
+/// Time histories of one run of a rig.
+#ifndef BT_REPORT_RIG_RECORD_H
+#define BT_REPORT_RIG_RECORD_H
+
+#include "study/study.h"
+
+/// Column 0 is the time, s; then the rig's channels in their order, SI.
+typedef struct bt_rig_record {
+    bt_rig_kind kind;
+    int column_count, count, room;
+    const char* names[1 + BT_RIG_CHANNEL_MAX]; ///< with their units: "stroke_m"
+    double* columns[1 + BT_RIG_CHANNEL_MAX];   ///< [count] each; owned
+    bool out_of_memory;
+} bt_rig_record;
+
+/// An empty record. Release with bt_rig_record_destroy.
+void bt_rig_record_start(bt_rig_record* record, bt_rig_kind kind);
+void bt_rig_record_destroy(bt_rig_record* record);
+
+/// The observer to hand to bt_rig_run, with the record as `user`.
+void bt_rig_record_observe(void* user, const bt_rig_sample* sample);
+
+/// A column at a time, between two rows; NAN outside the record.
+double bt_rig_record_at(const bt_rig_record* record, int column, double time_s);
+
+/// Writes an HDF5 file under a temporary name, then renames it: one dataset per column with the
+/// attribute `unit`, the metrics and their references as attributes of the file, the study's text
+/// as dataset `study`. BT_ERR_IO (said in diag), BT_ERR_MEMORY.
+BT_CHECKED bt_status bt_rig_record_write(const bt_rig_record* record, const char* path,
+                                         const bt_study* study, const bt_rig_result* result,
+                                         bt_diag* diag);
+
+#endif

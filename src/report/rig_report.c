@@ -1,0 +1,143 @@
+#include "report/rig_report.h"
+
+#include "base/text.h"
+
+#include <math.h>
+#include <string.h>
+
+// --- measured curves --------------------------------------------------------------------------
+
+static bt_status read_curve(const bt_rig_input* input, int i, const bt_rig_record* names,
+                            bt_rig_curves* curves, bt_diag* diag) {
+    bt_measured* measured = NULL;
+    bt_diag silent = {0};
+    bt_status status = bt_measured_read(input->curves[i].path, &measured, &silent);
+    if (status == BT_ERR_IO) {
+        bt_diag_add(diag, BT_ERROR, input->curves[i].where, "curve: \"%s\" cannot be read",
+                    input->curves[i].path);
+        return status;
+    }
+    if (status != BT_OK) // once more, to be heard
+        return bt_measured_read(input->curves[i].path, &measured, diag);
+    status = bt_measured_bind(measured, names->names, names->column_count, diag);
+    if (status != BT_OK)
+        bt_measured_destroy(measured);
+    else
+        curves->measured[curves->count++] = measured;
+    return status;
+}
+
+bt_status bt_rig_curves_read(const bt_study* study, bt_rig_kind kind, bt_rig_curves* curves,
+                             bt_diag* diag) {
+    const bt_rig_input* input = &study->rig_inputs[kind];
+    bt_rig_record names;
+    bt_status worst = BT_OK;
+    *curves = (bt_rig_curves){0};
+    bt_rig_record_start(&names, kind);
+    for (int i = 0; i < input->curve_count; ++i) {
+        const bt_status status = read_curve(input, i, &names, curves, diag);
+        worst = worst == BT_OK ? status : worst;
+    }
+    if (worst != BT_OK)
+        bt_rig_curves_destroy(curves);
+    return worst;
+}
+
+void bt_rig_curves_destroy(bt_rig_curves* curves) {
+    for (int i = 0; i < curves->count; ++i)
+        bt_measured_destroy(curves->measured[i]);
+    curves->count = 0;
+}
+
+void bt_rig_curve_error(const bt_rig_record* record, const bt_measured* measured, double* rms,
+                        double* share) {
+    double sum = 0, most = 0;
+    int count = 0;
+    for (int i = 0; measured->x_column == 0 && i < measured->count; ++i) {
+        const double got = bt_rig_record_at(record, measured->y_column, measured->x[i]);
+        most = fmax(most, fabs(measured->y[i]));
+        if (!isfinite(got))
+            continue;
+        sum += (got - measured->y[i]) * (got - measured->y[i]);
+        ++count;
+    }
+    *rms = count > 0 ? sqrt(sum / count) : NAN;
+    *share = most > 0 ? *rms / most : NAN;
+}
+
+// --- table ------------------------------------------------------------------------------------
+
+/// Five digits, and no exponent where none is needed.
+static void put_value(double value, char* text, size_t size) {
+    if (fabs(value) >= 1e4 && fabs(value) < 1e9)
+        snprintf(text, size, "%.0f", value);
+    else
+        bt_text_print_rounded(value, 5, text, size);
+}
+
+static void print_metric(FILE* out, const bt_metric* m) {
+    char value[40] = "none", reference[40] = "";
+    if (isfinite(m->value))
+        put_value(m->value, value, sizeof value);
+    fprintf(out, "%-24s %10s %-4s", m->name, value,
+            isfinite(m->value) && strcmp(m->unit, "1") != 0 ? m->unit : "");
+    if (isfinite(m->reference)) {
+        put_value(m->reference, reference, sizeof reference);
+        fprintf(out, " %10s %8.2f %% %8.1f %%  %s", reference, m->error_percent, 100 * m->tolerance,
+                m->accepted ? "yes" : "NO");
+    }
+    fputc('\n', out);
+}
+
+void bt_rig_print(FILE* out, const bt_rig_result* result, const bt_rig_record* record,
+                  const bt_rig_curves* curves) {
+    fprintf(out, "%-24s %10s %-4s %10s %10s %10s  %s\n", "metric", "value", "unit", "reference",
+            "error", "tolerance", "accepted");
+    for (int i = 0; i < result->metric_count; ++i)
+        print_metric(out, &result->metrics[i]);
+    for (int i = 0; i < curves->count; ++i) {
+        const bt_measured* m = curves->measured[i];
+        double rms, share;
+        bt_rig_curve_error(record, m, &rms, &share);
+        fprintf(out, "%s: ", m->file);
+        if (isfinite(rms))
+            fprintf(out, "rms difference %.4g in %s, %.1f %% of the largest measured\n", rms,
+                    record->names[m->y_column], 100 * share);
+        else
+            fprintf(out, "%s over %s, drawn only\n", m->y_name, m->x_name);
+    }
+}
+
+static void write_metric(bt_json* json, const bt_metric* m) {
+    bt_json_begin_object(json, m->name);
+    bt_json_number(json, "value", m->value);
+    bt_json_string(json, "unit", m->unit);
+    bt_json_number(json, "reference", m->reference);
+    bt_json_number(json, "error_percent", m->error_percent);
+    bt_json_number(json, "tolerance_percent", 100 * m->tolerance);
+    if (isfinite(m->reference))
+        bt_json_bool(json, "accepted", m->accepted);
+    bt_json_end_object(json);
+}
+
+void bt_rig_write_json(bt_json* json, const bt_rig_result* result, const bt_rig_record* record,
+                       const bt_rig_curves* curves) {
+    bt_json_begin_object(json, "metrics");
+    for (int i = 0; i < result->metric_count; ++i)
+        write_metric(json, &result->metrics[i]);
+    bt_json_end_object(json);
+    bt_json_begin_array(json, "curves");
+    for (int i = 0; i < curves->count; ++i) {
+        double rms, share;
+        bt_rig_curve_error(record, curves->measured[i], &rms, &share);
+        bt_json_begin_object(json, NULL);
+        bt_json_string(json, "file", curves->measured[i]->file);
+        bt_json_string(json, "channel", record->names[curves->measured[i]->y_column]);
+        bt_json_number(json, "rms", rms);
+        bt_json_number(json, "rms_percent", 100 * share);
+        bt_json_end_object(json);
+    }
+    bt_json_end_array(json);
+    bt_json_integer(json, "steps", result->steps);
+    bt_json_number(json, "end_time_s", result->end_time_s);
+}

@@ -1,0 +1,40 @@
+/// What a rig found, beside what was measured.
+#ifndef BT_REPORT_RIG_REPORT_H
+#define BT_REPORT_RIG_REPORT_H
+
+#include "calibration/measured.h"
+#include "report/json.h"
+#include "report/rig_record.h"
+
+/// The measured curves of one rig, bound to the columns of its record.
+typedef struct bt_rig_curves {
+    int count;
+    bt_measured* measured[BT_CURVES_MAX]; ///< owned
+} bt_rig_curves;
+
+/// Reads the curves that the study names for a rig and checks their columns and units. Every
+/// mistake is said in diag with its place in the CSV file; a file that cannot be read at the place
+/// that names it. BT_ERR_INPUT, BT_ERR_IO, BT_ERR_MEMORY.
+BT_CHECKED bt_status bt_rig_curves_read(const bt_study* study, bt_rig_kind kind,
+                                        bt_rig_curves* curves, bt_diag* diag);
+void bt_rig_curves_destroy(bt_rig_curves* curves);
+
+/// How far the record lies from a curve over time: root mean square of the difference where both
+/// exist, SI, and its share of the largest measured value. NAN for a curve that is not over time.
+void bt_rig_curve_error(const bt_rig_record* record, const bt_measured* measured, double* rms,
+                        double* share);
+
+/// As the paper's Tables 1-3: metric, value, unit, reference, error, what is accepted.
+void bt_rig_print(FILE* out, const bt_rig_result* result, const bt_rig_record* record,
+                  const bt_rig_curves* curves);
+
+/// Members of the present object: `metrics` by name, `curves`, `steps`, `end_time_s`.
+void bt_rig_write_json(bt_json* json, const bt_rig_result* result, const bt_rig_record* record,
+                       const bt_rig_curves* curves);
+
+/// The rig's figures (Figs. 9-12: stroke and sinkage, compression and load of the tyre; height and
+/// load of the hook) with the measured curves as points; one more for each curve that fits none.
+BT_CHECKED bt_status bt_rig_draw(const bt_rig_record* record, const bt_rig_curves* curves,
+                                 const char* folder, bt_diag* diag);
+
+#endif
