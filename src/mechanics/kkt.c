@@ -445,6 +445,7 @@ void bt_kkt_destroy(bt_kkt* kkt) {
 
 /* ------------------------------------------------------------------ numeric */
 
+#define UNROLL _Pragma("GCC unroll 6")
 #define ALWAYS_INLINE static inline __attribute__((always_inline))
 
 /// a = L D L^T in place (lower part, row-major n x n); the diagonal holds 1 / D afterwards.
@@ -637,43 +638,100 @@ int bt_kkt_factor(const bt_kkt* kkt, const double* ga, const double* gb, double*
     return failed;
 }
 
-ALWAYS_INLINE void forward_node(const bt_kkt* kkt, const bt_kkt_node* node, int n, const double* f,
-                                double* x) {
+/// z -= (panel of L) y
+ALWAYS_INLINE void forward_panel(int rows, int n, const double* restrict b, const double y[6],
+                                 double* restrict z) {
+    UNROLL
+    for (int r = 0; r < rows; ++r) {
+        double even = 0, odd = 0; // two chains
+        UNROLL
+        for (int k = 0; k + 1 < n; k += 2) {
+            even += b[n * r + k] * y[k];
+            odd += b[n * r + k + 1] * y[k + 1];
+        }
+        if (n % 2)
+            even += b[n * r + n - 1] * y[n - 1];
+        z[r] -= even + odd;
+    }
+}
+
+ALWAYS_INLINE void forward_node(const bt_kkt* kkt, const bt_kkt_node* node, int n,
+                                const double* restrict f, double* restrict x) {
     const double* l = f + node->diagonal;
-    double* y = x + node->start;
-    for (int r = 1; r < n; ++r)
+    double y[6];
+    UNROLL
+    for (int r = 0; r < n; ++r) {
+        y[r] = x[node->start + r];
+        UNROLL
         for (int k = 0; k < r; ++k)
             y[r] -= l[n * r + k] * y[k];
+    }
+    UNROLL
+    for (int r = 1; r < n; ++r)
+        x[node->start + r] = y[r];
     for (int e = node->edge_first; e < node->edge_first + node->edge_count; ++e) {
         const bt_kkt_node* later = &kkt->nodes[kkt->edges[e].node];
         const double* b = f + kkt->edges[e].offset;
         double* z = x + later->start;
-        for (int r = 0; r < later->dim; ++r) {
-            double sum = z[r];
-            for (int k = 0; k < n; ++k)
-                sum -= b[n * r + k] * y[k];
-            z[r] = sum;
+        switch (later->dim) {
+        case 4:
+            forward_panel(4, n, b, y, z);
+            break;
+        case 5:
+            forward_panel(5, n, b, y, z);
+            break;
+        case 6:
+            forward_panel(6, n, b, y, z);
+            break;
+        default:
+            forward_panel(later->dim, n, b, y, z);
         }
     }
 }
 
-ALWAYS_INLINE void backward_node(const bt_kkt* kkt, const bt_kkt_node* node, int n, const double* f,
-                                 double* x) {
-    const double* l = f + node->diagonal;
-    double* y = x + node->start;
+/// y -= (panel of L)^T z
+ALWAYS_INLINE void backward_panel(int rows, int n, const double* restrict b,
+                                  const double* restrict z, double y[6]) {
+    UNROLL
+    for (int r = 0; r < rows; ++r)
+        UNROLL
     for (int k = 0; k < n; ++k)
-        y[k] *= l[n * k + k];
+        y[k] -= b[n * r + k] * z[r];
+}
+
+ALWAYS_INLINE void backward_node(const bt_kkt* kkt, const bt_kkt_node* node, int n,
+                                 const double* restrict f, double* restrict x) {
+    const double* l = f + node->diagonal;
+    double y[6];
+    UNROLL
+    for (int k = 0; k < n; ++k)
+        y[k] = x[node->start + k] * l[n * k + k];
     for (int e = node->edge_first; e < node->edge_first + node->edge_count; ++e) {
         const bt_kkt_node* later = &kkt->nodes[kkt->edges[e].node];
         const double* b = f + kkt->edges[e].offset;
         const double* z = x + later->start;
-        for (int r = 0; r < later->dim; ++r)
-            for (int k = 0; k < n; ++k)
-                y[k] -= b[n * r + k] * z[r];
+        switch (later->dim) {
+        case 4:
+            backward_panel(4, n, b, z, y);
+            break;
+        case 5:
+            backward_panel(5, n, b, z, y);
+            break;
+        case 6:
+            backward_panel(6, n, b, z, y);
+            break;
+        default:
+            backward_panel(later->dim, n, b, z, y);
+        }
     }
+    UNROLL
     for (int k = n - 1; k > 0; --k)
-        for (int c = 0; c < k; ++c)
-            y[c] -= l[n * k + c] * y[k];
+        UNROLL
+    for (int c = 0; c < k; ++c)
+        y[c] -= l[n * k + c] * y[k];
+    UNROLL
+    for (int k = 0; k < n; ++k)
+        x[node->start + k] = y[k];
 }
 
 void bt_kkt_solve(const bt_kkt* kkt, const double* factor, double* x) {
@@ -730,6 +788,7 @@ void bt_kkt_set_mass(bt_kkt* kkt, int body, double mass_kg, const double inertia
     memset(m, 0, 36 * sizeof *m);
     for (int i = 0; i < 3; ++i) {
         m[7 * i] = mass_kg;
+        UNROLL
         for (int k = 0; k < 3; ++k)
             m[6 * (3 + i) + 3 + k] = inertia_kgm2[3 * i + k];
     }
