@@ -18,7 +18,7 @@
 
 // clang-format off
 #define BT_CABLE_MESH_FIELDS(F)                                                                    \
-    F(REAL, fine_length, m, OPTIONAL, 0.06, 0.005, 2, "Eq. 11", "segment length where wheels and hook meet the cable") \
+    F(REAL, fine_length, m, OPTIONAL, 0.05, 0.005, 2, "Eq. 11", "segment length where wheels and hook meet the cable") \
     F(REAL, fine_half_width, m, OPTIONAL, 3.0, 0, 50, "", "the fine segments lie within this distance of the middle") \
     F(REAL, medium_length, m, OPTIONAL, 0.1, 0.005, 2, "Eq. 11", "segment length outside the fine part") \
     F(REAL, medium_half_width, m, OPTIONAL, 7.0, 0, 50, "", "the medium segments lie within this distance of the middle; it should reach past the first supports") \

@@ -72,7 +72,7 @@ static void span_inside_the_supports_and_bad_mesh_are_refused(void** state) {
     assert_refused(&p, "deck.cable.span", "at least 12.6 m");
     p = defaults();
     p.mesh.medium_length_m = 0.02;
-    assert_refused(&p, "deck.cable.mesh.medium_length", "at least 0.06 m");
+    assert_refused(&p, "deck.cable.mesh.medium_length", "at least 0.05 m");
     p = defaults();
     p.mesh.coarse_length_m = 0.06;
     assert_refused(&p, "deck.cable.mesh.coarse_length", "at least 0.1 m");
