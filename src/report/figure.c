@@ -157,8 +157,10 @@ static void put_script(FILE* out, const bt_figure* figure) {
           "set border 3 lc rgb '#404040'\n"
           "set tics nomirror out\n"
           "set grid lc rgb '#d8d8d8' lt 1 lw 0.6\n"
-          "set key outside right top vertical Left reverse noenhanced samplen 2 spacing 1.3\n",
+          "set key outside",
           out);
+    fputs(figure->key_below ? " bottom center horizontal" : " right top vertical", out);
+    fputs(" Left reverse noenhanced samplen 2 spacing 1.3\n", out);
     put_setting(out, "key title", figure->key_title);
     put_setting(out, "title", figure->title);
     put_setting(out, "xlabel", figure->x_label);

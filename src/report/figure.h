@@ -30,6 +30,7 @@ typedef struct bt_figure {
     const char *title, *x_label, *y_label, *key_title; ///< may be NULL
     const char* y2_label;                              ///< of a second y axis; NULL: there is none
     bool ordered;        ///< the series are steps of one quantity: colours from dark to light
+    bool key_below;      ///< the key lies under the figure instead of beside it
     bool from_zero;      ///< the y axis begins at 0
     double x_max, y_max; ///< ends of the axes; 0: found by gnuplot
     int series_count;

@@ -38,8 +38,8 @@ static const plan plans[] = {
      "compression, mm",
      "load, kN",
      false,
-     {{"tyre_compression_m", "compression (left)", 1e3, false},
-      {"tyre_force_N", "load (right)", 1e-3, true}}},
+     {{"tyre_compression_m", "compression, left axis", 1e3, false},
+      {"tyre_force_N", "load, right axis", 1e-3, true}}},
     {BT_RIG_MAIN_DROP,
      "main_drop_stroke",
      "Drop of the main gear: strut and centre of gravity (Fig. 11)",
@@ -54,16 +54,16 @@ static const plan plans[] = {
      "compression, mm",
      "load, kN",
      false,
-     {{"tyre_compression_m", "compression (left)", 1e3, false},
-      {"tyre_force_N", "load (right)", 1e-3, true}}},
+     {{"tyre_compression_m", "compression, left axis", 1e3, false},
+      {"tyre_force_N", "load, right axis", 1e-3, true}}},
     {BT_RIG_HOOK_REBOUND,
      "hook_rebound_height",
      "Rebound of the hook: the head above the disc",
      "height, mm",
      "stroke of the damper, mm",
      false,
-     {{"hook_height_m", "height of the head (left)", 1e3, false},
-      {"damper_stroke_m", "stroke of the damper (right)", 1e3, true}}},
+     {{"hook_height_m", "height of the head, left axis", 1e3, false},
+      {"damper_stroke_m", "stroke of the damper, right axis", 1e3, true}}},
     {BT_RIG_HOOK_REBOUND,
      "hook_rebound_impact",
      "Rebound of the hook: load of the first impact",
@@ -92,15 +92,15 @@ static double* scaled(drawing* d, const double* values, int count, double scale)
 }
 
 static void add(drawing* d, const char* label, bt_series_style style, const double* x,
-                const double* y, int count, double scale, bool second) {
-    const double* drawn = scaled(d, y, count, scale);
-    if (!drawn)
+                double x_scale, const double* y, int count, double scale, bool second) {
+    const double *across = scaled(d, x, count, x_scale), *drawn = scaled(d, y, count, scale);
+    if (!across || !drawn)
         return;
     snprintf(d->labels[d->count], sizeof d->labels[0], "%s", label);
     d->series[d->count] = (bt_series){.label = d->labels[d->count],
                                       .style = style,
                                       .count = count,
-                                      .x = x,
+                                      .x = across,
                                       .y = drawn,
                                       .second = second};
     ++d->count;
@@ -119,10 +119,11 @@ static const char* base_name(const char* path) {
     return slash ? slash + 1 : path;
 }
 
-static void add_measured(drawing* d, const bt_measured* m, double scale, bool second) {
+static void add_measured(drawing* d, const bt_measured* m, double x_scale, double scale,
+                         bool second) {
     char label[96];
     snprintf(label, sizeof label, "%s (%.60s)", m->y_name, base_name(m->file));
-    add(d, label, BT_SERIES_POINTS, m->x, m->y, m->count, scale, second);
+    add(d, label, BT_SERIES_POINTS, m->x, x_scale, m->y, m->count, scale, second);
 }
 
 /// Until when the first impact lasts, and half as long again, s.
@@ -161,20 +162,21 @@ static bt_status draw_plan(const plan* p, const bt_rig_record* record, const bt_
     for (int t = 0; t < TRACES_MAX && p->traces[t].channel; ++t) {
         const trace* line = &p->traces[t];
         const int column = column_of(record, line->channel);
-        add(&d, line->label, BT_SERIES_LINE, record->columns[0], record->columns[column], rows,
+        add(&d, line->label, BT_SERIES_LINE, record->columns[0], 1e3, record->columns[column], rows,
             line->scale, line->second);
         for (int i = 0; i < curves->count; ++i)
             if (curves->measured[i]->x_column == 0 && curves->measured[i]->y_column == column) {
-                add_measured(&d, curves->measured[i], line->scale, line->second);
+                add_measured(&d, curves->measured[i], 1e3, line->scale, line->second);
                 drawn[i] = true;
             }
     }
     const bt_figure figure = {.name = p->name,
                               .title = p->title,
-                              .x_label = "time from first contact, s",
+                              .x_label = "time from first contact, ms",
                               .y_label = p->y_label,
                               .y2_label = p->y2_label,
-                              .x_max = end};
+                              .key_below = true,
+                              .x_max = 1e3 * end};
     return write(&d, &figure, folder, diag);
 }
 
@@ -185,10 +187,10 @@ static bt_status draw_curve(const bt_rig_record* record, const bt_measured* m, c
     char name[192];
     const char *x = record->names[m->x_column], *y = record->names[m->y_column];
     snprintf(name, sizeof name, "%s_%s_over_%s", bt_rig_keys[record->kind], y, x);
-    add(&d, "computed", BT_SERIES_LINE, record->columns[m->x_column], record->columns[m->y_column],
-        record->count, 1, false);
-    add_measured(&d, m, 1, false);
-    const bt_figure figure = {.name = name, .x_label = x, .y_label = y};
+    add(&d, "computed", BT_SERIES_LINE, record->columns[m->x_column], 1,
+        record->columns[m->y_column], record->count, 1, false);
+    add_measured(&d, m, 1, 1, false);
+    const bt_figure figure = {.name = name, .x_label = x, .y_label = y, .key_below = true};
     return write(&d, &figure, folder, diag);
 }
 
