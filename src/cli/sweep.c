@@ -142,8 +142,11 @@ static bt_status write_figure(const plan* p, bt_sweep* sweep, const char* folder
     }
     int count = sweep->count;
     if (p->reference && count < BT_SERIES_MAX)
-        series[count++] = (bt_series){
-            .label = p->reference, .style = BT_SERIES_REFERENCE, .count = CORNERS, .x = x, .y = y};
+        series[count++] = (bt_series){.label = p->reference_label,
+                                      .style = BT_SERIES_REFERENCE,
+                                      .count = CORNERS,
+                                      .x = x,
+                                      .y = y};
     const bt_figure figure = {.name = p->name,
                               .title = p->title,
                               .x_label = "distance travelled from first contact, m",
