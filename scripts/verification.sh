@@ -23,7 +23,7 @@ for group in verify valid; do
     for source in tests/"$group"/test_*.c; do
         [ -e "$source" ] || continue
         name=$(basename "$source" .c)
-        rows=$(BT_TABLES=1 BOLTER="$PWD/$build/bolter" "$build/tests/$name" 2>/dev/null) || {
+        rows=$(BT_TABLES=1 BOLTER="$(realpath "$build")/bolter" "$build/tests/$name" 2>/dev/null) || {
             echo "$name: failed" >&2
             failed=1
         }
