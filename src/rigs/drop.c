@@ -12,6 +12,8 @@ typedef struct drop_rig {
     double lift_N;
     double start_m;       ///< height of the mass at touchdown
     double rolling_radps; ///< wheel speed that follows the belt
+    double unsprung_kg;
+    bt_oleo oleo;
 } drop_rig;
 
 static void add_bodies(const bt_gear_params* gear, const bt_drop_params* drop, double stroke_m,
@@ -80,6 +82,8 @@ static bt_status build(const bt_gear_params* gear, const bt_drop_params* drop, d
     const double height = 1; // of the mass above the axle, strut extended; any will do
     bt_strut strut = {.point_a_m = {0, 0, -height}, .axis_a = {0, 0, 1}};
     bt_oleo_prepare(&gear->oleo, &strut.oleo);
+    d->oleo = strut.oleo;
+    d->unsprung_kg = unsprung;
     bt_wheel wheel = {.deck_velocity_mps = {-drop->belt_speed_mps, 0, 0}};
     bt_tyre_prepare(&gear->tyre, &wheel.tyre);
     // As it falls: the stop carries the gas, and what the unsprung parts feel of the lift.
@@ -158,6 +162,17 @@ static void report(const bt_drop_params* drop, const record* r, const drop_rig* 
     bt_rig_add(result, "spin_up_time_s", "s", r->spin_up_s, 0, 0);
 }
 
+/// The step that is asked for, or a shorter one where the damping of the unsprung mass would be
+/// unstable: half of m / (dF_h/ds'), dF_h/ds' = 2 F_h / s'. A rebound valve asks for it when the
+/// wheel has left the platform.
+static double next_step(const bt_drop_params* drop, const drop_rig* d, double stroke_m,
+                        double rate_mps) {
+    const double damping =
+        rate_mps != 0 ? 2 * bt_oleo_oil_force(&d->oleo, stroke_m, rate_mps) / rate_mps : 0;
+    return damping * drop->step_s > 0.5 * d->unsprung_kg ? 0.5 * d->unsprung_kg / damping
+                                                         : drop->step_s;
+}
+
 static bt_status run(const bt_gear_params* gear, const bt_drop_params* drop, drop_rig* d,
                      bt_rig_result* result) {
     BT_TRY(build(gear, drop, d));
@@ -168,7 +183,7 @@ static bt_status run(const bt_gear_params* gear, const bt_drop_params* drop, dro
     bt_rig_show(&d->rig, BT_DROP_CHANNELS, bt_drop_channels, channel);
     while (d->rig.state.time_s < drop->duration_s - 0.5 * drop->step_s) {
         d->rig.state.applied[6 * BODY_MASS + 2] = d->lift_N;
-        BT_TRY(bt_rig_step(&d->rig, drop->step_s));
+        BT_TRY(bt_rig_step(&d->rig, next_step(drop, d, channel[STROKE], channel[STROKE_RATE])));
         look(d, channel);
         keep(&r, d, channel);
         bt_rig_show(&d->rig, BT_DROP_CHANNELS, bt_drop_channels, channel);
