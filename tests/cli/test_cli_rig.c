@@ -1,0 +1,245 @@
+/// `bolter rig` as a user types it, and what `bolter check` says of bad test data.
+#define _GNU_SOURCE
+#include "near.h"
+
+#include "campaign/directory.h"
+#include "toy_study.h"
+
+#include <sys/wait.h>
+
+#define REFERENCE "studies/reference/study.yaml"
+#define TR1154 "studies/rigs/tr1154.yaml"
+
+typedef struct fixture {
+    char* directory;
+    char *out, *err; ///< of the last command
+} fixture;
+
+static int setup(void** state) {
+    fixture* f = calloc(1, sizeof *f);
+    f->directory = toy_directory();
+    *state = f;
+    return 0;
+}
+
+static int teardown(void** state) {
+    fixture* f = *state;
+    toy_directory_remove(f->directory);
+    free(f->out);
+    free(f->err);
+    free(f);
+    return 0;
+}
+
+static char* read_text(const fixture* f, const char* name) {
+    char path[4096];
+    char* text = NULL;
+    assert_int_equal(bt_file_read(toy_path(path, f->directory, name), &text, NULL, NULL), BT_OK);
+    return text;
+}
+
+/// Runs `bolter ARGUMENTS` through the shell, "%" standing for the test's directory.
+static int bolter(fixture* f, const char* arguments) {
+    const char* program = getenv("BOLTER");
+    char* command = NULL;
+    size_t size = 0;
+    FILE* text = open_memstream(&command, &size);
+    fprintf(text, "'%s' ", program ? program : "build/bolter");
+    for (const char* c = arguments; *c; ++c)
+        if (*c == '%')
+            fputs(f->directory, text);
+        else
+            fputc(*c, text);
+    fprintf(text, " >'%s/out' 2>'%s/err'", f->directory, f->directory);
+    fclose(text);
+    const int code = system(command);
+    free(command);
+    free(f->out);
+    free(f->err);
+    f->out = read_text(f, "out");
+    f->err = read_text(f, "err");
+    return WIFEXITED(code) ? WEXITSTATUS(code) : -1;
+}
+
+static void write_file(const fixture* f, const char* name, const char* text) {
+    char path[4096];
+    assert_int_equal(bt_file_write(toy_path(path, f->directory, name), text, strlen(text), NULL),
+                     BT_OK);
+}
+
+static void assert_has(const char* text, const char* part) {
+    if (!strstr(text, part))
+        fail_msg("\"%s\" is not in:\n%s", part, text);
+}
+
+/// The TR 1154 file with one line replaced (the first that has `key`), as rig.yaml.
+static void write_spoilt(const fixture* f, const char* key, const char* line) {
+    char *text = NULL, *spoilt = NULL;
+    size_t size = 0;
+    assert_int_equal(bt_file_read(TR1154, &text, NULL, NULL), BT_OK);
+    const char* at = strstr(text, key);
+    assert_non_null(at);
+    FILE* out = open_memstream(&spoilt, &size);
+    fprintf(out, "%.*s%s%s", (int)(at - text), text, line, at + strcspn(at, "\n"));
+    fclose(out);
+    write_file(f, "rig.yaml", spoilt);
+    free(spoilt);
+    free(text);
+}
+
+static void rig_prints_metrics_beside_their_references(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "rig nose-drop " REFERENCE " -o %/x"), 0);
+    assert_string_equal(f->err, "");
+    static const char* const parts[] = {
+        "stroke_max_m",     "sinkage_max_m", "tyre_compression_max_m",
+        "tyre_force_max_N", "0.435",         "yes"};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i)
+        assert_has(f->out, parts[i]);
+    free(read_text(f, "x/figures/nose_drop_stroke.csv"));
+    free(read_text(f, "x/figures/nose_drop_tyre.gp"));
+    char* history = read_text(f, "x/nose_drop.h5");
+    assert_memory_equal(history, "\x89HDF\r\n\x1a\n", 8);
+    free(history);
+}
+
+static void rig_prints_the_promised_json_keys(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "rig main-drop " REFERENCE " --json -o %/x.h5"), 0);
+    assert_string_equal(f->err, "");
+    assert_true(f->out[0] == '{');
+    static const char* const parts[] = {
+        "\"metrics\": {",       "\"stroke_max_m\": {", "\"value\": ",       "\"unit\": \"m\"",
+        "\"reference\": 0.577", "\"error_percent\": ", "\"accepted\": true"};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i)
+        assert_has(f->out, parts[i]);
+    assert_int_equal(bolter(f, "rig hook-rebound " REFERENCE " --json -o %/y.h5"), 0);
+    assert_has(f->out, "\"rebound_height_m\": {");
+    assert_has(f->out, "\"impact_force_N\": {");
+    assert_has(f->out, "\"reference\": null");
+}
+
+static void wrong_use_is_exit_code_2(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "rig nose-dorp " REFERENCE), 2);
+    assert_has(f->err, "none of nose-drop, main-drop, hook-rebound");
+    assert_int_equal(bolter(f, "rig nose-drop"), 2);
+}
+
+static void rig_that_the_study_lacks_is_exit_code_3(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "rig nose-drop " TR1154 " -o %/x"), 3);
+    assert_has(f->err, "rigs.nose_drop: missing");
+}
+
+static void rig_file_is_no_study_of_landings(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "check " TR1154), 0);
+    assert_has(f->out, "main_drop");
+    assert_int_equal(bolter(f, "land " TR1154), 3);
+    assert_has(f->err, "missing");
+}
+
+/// What is wrong with a line of a rig file: refused by `check` with this place and reason.
+static void assert_refused(fixture* f, const char* key, const char* line, const char* place,
+                           const char* reason) {
+    write_spoilt(f, key, line);
+    assert_int_equal(bolter(f, "check %/rig.yaml"), 3);
+    assert_has(f->err, place);
+    assert_has(f->err, reason);
+    assert_string_equal(f->out, "");
+}
+
+static void bad_gear_is_refused_with_its_place(void** state) {
+    fixture* f = *state;
+    assert_refused(f, "      orifice_area:",
+                   "      orifice_table: [[0 mm, 30 mm^2], [90 mm, 20 mm^2], [80 mm, 10 mm^2]]",
+                   "rig.yaml:21:22: error: aircraft.main_gear.oleo.orifice_table", "must increase");
+    assert_refused(f, "      air_volume:", "      air_volume: 0.5 L",
+                   "rig.yaml:18:19: error: aircraft.main_gear.oleo.air_volume", "swept volume");
+}
+
+static void precharge_below_ambient_is_refused_with_its_place(void** state) {
+    fixture* f = *state;
+    write_spoilt(f, "      precharge:", "      precharge: 0.9 bar");
+    assert_int_equal(
+        bolter(f, "check %/rig.yaml --set aircraft.main_gear.oleo.ambient='101325 Pa'"), 3);
+    assert_has(f->err, "rig.yaml:16:18: error: aircraft.main_gear.oleo.precharge");
+    assert_has(f->err, "below the ambient pressure");
+}
+
+static void tyre_curve_that_decreases_is_refused_with_its_place(void** state) {
+    fixture* f = *state;
+    assert_refused(f, "      law: power",
+                   "      law: points\n      load_points: [[10 mm, 9 kN], [20 mm, 8 kN]]",
+                   "rig.yaml:29:20: error: aircraft.main_gear.tyre.load_points", "decreases");
+}
+
+static void drop_mass_below_the_leg_is_refused_with_its_place(void** state) {
+    fixture* f = *state;
+    assert_refused(f, "    mass: 2542 lb", "    mass: 100 lb",
+                   "rig.yaml:37:11: error: rigs.main_drop.mass",
+                   "is not above that of piston and wheel");
+}
+
+/// Names data.csv in the TR 1154 file and gives it a content.
+static int check_data(fixture* f, const char* csv) {
+    write_spoilt(f, "      tolerance: 0.001", "      curve: data.csv");
+    write_file(f, "data.csv", csv);
+    return bolter(f, "check %/rig.yaml");
+}
+
+static void measured_curve_is_drawn_beside_the_run(void** state) {
+    fixture* f = *state;
+    assert_int_equal(check_data(f, "time [ms], stroke [in]\n0, 0\n50, 2\n100, 5\n"), 0);
+    assert_has(f->out, "1 measured curve");
+    assert_int_equal(bolter(f, "rig main-drop %/rig.yaml -o %/x"), 0);
+    assert_has(f->out, "data.csv: rms difference");
+    char* data = read_text(f, "x/figures/main_drop_stroke.csv");
+    assert_has(data, "100,127"); // 5 in at 100 ms
+    free(data);
+}
+
+static void measured_curve_with_wrong_columns_or_units_is_refused(void** state) {
+    fixture* f = *state;
+    assert_int_equal(check_data(f, "time [s], strok [mm]\n0, 0\n1, 1\n"), 3);
+    assert_has(f->err, "data.csv:1:11: error: strok: no such column");
+    assert_int_equal(check_data(f, "time [s], stroke [kN]\n0, 0\n1, 1\n"), 3);
+    assert_has(f->err, "data.csv:1:11: error: stroke: the unit in brackets is wrong");
+    assert_int_equal(check_data(f, "time [s], stroke\n0, 0\n1, 1\n"), 3);
+    assert_has(f->err, "data.csv:1:11: error: stroke");
+    assert_int_equal(check_data(f, "0, 0\n1, 1\n"), 3);
+    assert_has(f->err, "data.csv:1:1: error: the first line must name two columns");
+    assert_int_equal(check_data(f, "time [s], stroke [mm]\n0, 0\n1, one\n"), 3);
+    assert_has(f->err, "data.csv:3:4: error: stroke: \"one\" is not a number");
+    assert_int_equal(check_data(f, "time [s], stroke [mm]\n1, 0\n0, 1\n"), 3);
+    assert_has(f->err, "data.csv:3:1: error: time does not increase");
+}
+
+static void measured_curve_that_is_not_there_is_exit_code_5(void** state) {
+    fixture* f = *state;
+    write_spoilt(f, "      tolerance: 0.001", "      curve: none.csv");
+    assert_int_equal(bolter(f, "check %/rig.yaml"), 5);
+    assert_has(f->err, "rig.yaml:48:14: error: curve: ");
+    assert_has(f->err, "none.csv");
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(rig_prints_metrics_beside_their_references),
+        TEST(rig_prints_the_promised_json_keys),
+        TEST(wrong_use_is_exit_code_2),
+        TEST(rig_that_the_study_lacks_is_exit_code_3),
+        TEST(rig_file_is_no_study_of_landings),
+        TEST(bad_gear_is_refused_with_its_place),
+        TEST(precharge_below_ambient_is_refused_with_its_place),
+        TEST(tyre_curve_that_decreases_is_refused_with_its_place),
+        TEST(drop_mass_below_the_leg_is_refused_with_its_place),
+        TEST(measured_curve_is_drawn_beside_the_run),
+        TEST(measured_curve_with_wrong_columns_or_units_is_refused),
+        TEST(measured_curve_that_is_not_there_is_exit_code_5),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
