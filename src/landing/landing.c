@@ -214,9 +214,8 @@ static void start(run* r) {
                      r->params->aircraft.hook.cable_contact.friction);
 }
 
-/// The airframe's step: fine around an impact of the shoe on the deck, and while the hook is near
-/// the cable. A shoe that slides, or hops by less than a millimetre, is followed well by the coarse
-/// step.
+/// The airframe's step: fine around an impact of the shoe on the deck and while the hook is near
+/// the cable, half the coarse one while the shoe slides or hops by less than a millimetre.
 static double choose_step(const run* r) {
     static const double impact_mps = 0.5, steps_ahead = 4;
     const bt_lander* l = r->lander;
@@ -224,10 +223,12 @@ static double choose_step(const run* r) {
     const double ahead_s = steps_ahead * s->airframe_step_s;
     const double* shoe = bt_system_element_output(l->airframe.system, &l->state, l->airframe.shoe);
     const double speed = fabs(shoe[BT_SHOE_RATE]);
-    const bool impact = speed > impact_mps && shoe[BT_SHOE_HEIGHT] < ahead_s * speed;
+    const bool at_deck = shoe[BT_SHOE_HEIGHT] < ahead_s * speed;
     const bool at_cable =
         r->clearance_m[BT_LEG_COUNT] < ahead_s * fabs(l->state.v[6 * BT_BODY_HOOK]);
-    return impact || at_cable ? fmin(s->contact_step_s, s->airframe_step_s) : s->airframe_step_s;
+    if (at_cable || (at_deck && speed > impact_mps))
+        return fmin(s->contact_step_s, s->airframe_step_s);
+    return at_deck ? 0.5 * s->airframe_step_s : s->airframe_step_s;
 }
 
 /// Mean wrench of the airframe step on one body.

@@ -78,7 +78,7 @@ BT_DECLARE_GROUP(aircraft, BT_AIRCRAFT_FIELDS)
 BT_DECLARE_GROUP(deck, BT_DECK_FIELDS)
 
 #define BT_SOLVER_FIELDS(F)                                                                        \
-    F(REAL, airframe_step, s, OPTIONAL, 2e-4, 1e-7, 1e-2, "", "step of the airframe while nothing hits hard") \
+    F(REAL, airframe_step, s, OPTIONAL, 4e-4, 1e-7, 1e-2, "", "step of the airframe in flight; half of it while the hook slides on the deck") \
     F(REAL, contact_step, s, OPTIONAL, 1e-4, 1e-7, 1e-2, "", "step of the airframe around an impact of the hook on the deck, and while it is near the cable") \
     F(PLAIN, cable_courant, _, OPTIONAL, 0.97, 0.05, 1, "", "cable step over its stable step") \
     F(COUNT, tyre_strips, _, OPTIONAL, 16, 4, 2000, "Eqs. 6-7", "narrow strips of a tyre's disc over the cable's part of the contact patch") \
