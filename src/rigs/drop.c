@@ -163,13 +163,13 @@ static void report(const bt_drop_params* drop, const record* r, const drop_rig* 
 }
 
 /// The step that is asked for, or a shorter one where the damping of the unsprung mass would be
-/// unstable: half of m / (dF_h/ds'), dF_h/ds' = 2 F_h / s'. A rebound valve asks for it when the
+/// unstable: 0.8 of m / (dF_h/ds'), dF_h/ds' = 2 F_h / s'. A rebound valve asks for it when the
 /// wheel has left the platform.
 static double next_step(const bt_drop_params* drop, const drop_rig* d, double stroke_m,
                         double rate_mps) {
     const double damping =
         rate_mps != 0 ? 2 * bt_oleo_oil_force(&d->oleo, stroke_m, rate_mps) / rate_mps : 0;
-    return damping * drop->step_s > 0.5 * d->unsprung_kg ? 0.5 * d->unsprung_kg / damping
+    return damping * drop->step_s > 0.8 * d->unsprung_kg ? 0.8 * d->unsprung_kg / damping
                                                          : drop->step_s;
 }
 
