@@ -17,7 +17,7 @@
 // Coefficients: interpolation of 2^f at the Chebyshev nodes of [-1/2, 1/2]; relative error
 // 1.0e-7 (degree 5) and 4.2e-18 (degree 11).
 #define REAL float
-#define INTEGER int32_t
+#define INTEGER uint32_t
 #define KERNEL BT_KERNEL_LEVEL
 #define NAME(word) BT_PASTE(bt_predict_, float, word)
 #define EXPONENT_SHIFT 23
@@ -36,7 +36,7 @@
 #undef EXP2_COEFFICIENTS
 
 #define REAL double
-#define INTEGER int64_t
+#define INTEGER uint64_t
 #define NAME(word) BT_PASTE(bt_predict_, double, word)
 #define EXPONENT_SHIFT 52
 #define LEAST_EXPONENT -1021.5

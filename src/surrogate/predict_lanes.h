@@ -1,5 +1,5 @@
 /// The body of predict_kernel.c, written once for float and double. Before inclusion define
-///   REAL, INTEGER       the number type and the integer of its size
+///   REAL, INTEGER       the number type and the unsigned integer of its size
 ///   NAME(word), KERNEL  the names of this copy, and the word in the name of its one export
 ///   EXPONENT_SHIFT      bits of the fraction
 ///   LEAST_EXPONENT      below it 2^y is taken as 0
@@ -23,7 +23,7 @@ static inline __attribute__((always_inline)) NAME(vector) NAME(exp2)(NAME(vector
         p = (p + c[i]) * f;
     p += c[0];
     const NAME(bits) scaled = (NAME(bits))p + ((NAME(bits))rounded << EXPONENT_SHIFT);
-    return (NAME(vector))(scaled & (y > LEAST_EXPONENT));
+    return (NAME(vector))(scaled & (NAME(bits))(y > LEAST_EXPONENT));
 }
 
 /// Adds the lanes of one point's sixteen running sums: halves onto each other.
