@@ -159,7 +159,7 @@ static void put_script(FILE* out, const bt_figure* figure) {
           "set grid lc rgb '#d8d8d8' lt 1 lw 0.6\n"
           "set key outside",
           out);
-    fputs(figure->key_below ? " bottom center horizontal" : " right top vertical", out);
+    fputs(figure->key_below ? " bottom center horizontal height 0.7" : " right top vertical", out);
     fputs(" Left reverse noenhanced samplen 2 spacing 1.3\n", out);
     put_setting(out, "key title", figure->key_title);
     put_setting(out, "title", figure->title);

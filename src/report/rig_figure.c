@@ -15,11 +15,12 @@ typedef struct trace {
 
 enum { TRACES_MAX = 2 };
 
-/// One of the rig's figures, over time.
+/// One of the rig's figures, over time or over the stroke.
 typedef struct plan {
     bt_rig_kind kind;
     const char *name, *title, *y_label, *y2_label;
-    bool impact; ///< only the first impact is shown
+    bool impact;      ///< only the first impact is shown
+    bool over_stroke; ///< instead of over time
     trace traces[TRACES_MAX];
 } plan;
 
@@ -30,6 +31,7 @@ static const plan plans[] = {
      "stroke, sinkage, mm",
      NULL,
      false,
+     false,
      {{"stroke_m", "stroke of the strut", 1e3, false},
       {"sinkage_m", "sinkage of the centre of gravity", 1e3, false}}},
     {BT_RIG_NOSE_DROP,
@@ -38,13 +40,23 @@ static const plan plans[] = {
      "compression, mm",
      "load, kN",
      false,
+     false,
      {{"tyre_compression_m", "compression, left axis", 1e3, false},
       {"tyre_force_N", "load, right axis", 1e-3, true}}},
+    {BT_RIG_NOSE_DROP,
+     "nose_drop_strut",
+     "Drop of the nose gear: the strut",
+     "load, kN",
+     NULL,
+     false,
+     true,
+     {{"strut_force_N", "load of the strut", 1e-3, false}}},
     {BT_RIG_MAIN_DROP,
      "main_drop_stroke",
      "Drop of the main gear: strut and centre of gravity (Fig. 11)",
      "stroke, sinkage, mm",
      NULL,
+     false,
      false,
      {{"stroke_m", "stroke of the strut", 1e3, false},
       {"sinkage_m", "sinkage of the centre of gravity", 1e3, false}}},
@@ -54,13 +66,23 @@ static const plan plans[] = {
      "compression, mm",
      "load, kN",
      false,
+     false,
      {{"tyre_compression_m", "compression, left axis", 1e3, false},
       {"tyre_force_N", "load, right axis", 1e-3, true}}},
+    {BT_RIG_MAIN_DROP,
+     "main_drop_strut",
+     "Drop of the main gear: the strut",
+     "load, kN",
+     NULL,
+     false,
+     true,
+     {{"strut_force_N", "load of the strut", 1e-3, false}}},
     {BT_RIG_HOOK_REBOUND,
      "hook_rebound_height",
      "Rebound of the hook: the head above the disc",
      "height, mm",
      "stroke of the damper, mm",
+     false,
      false,
      {{"hook_height_m", "height of the head, left axis", 1e3, false},
       {"damper_stroke_m", "stroke of the damper, right axis", 1e3, true}}},
@@ -70,6 +92,7 @@ static const plan plans[] = {
      "load, kN",
      NULL,
      true,
+     false,
      {{"hook_force_N", "load of the disc on the head", 1e-3, false}}},
 };
 enum { PLAN_COUNT = sizeof plans / sizeof plans[0] };
@@ -159,24 +182,27 @@ static bt_status draw_plan(const plan* p, const bt_rig_record* record, const bt_
     drawing d = {0};
     const double end = p->impact ? impact_end_s(record) : record->columns[0][record->count - 1];
     const int rows = rows_until(record, end);
+    const int across = p->over_stroke ? column_of(record, "stroke_m") : 0;
     for (int t = 0; t < TRACES_MAX && p->traces[t].channel; ++t) {
         const trace* line = &p->traces[t];
         const int column = column_of(record, line->channel);
-        add(&d, line->label, BT_SERIES_LINE, record->columns[0], 1e3, record->columns[column], rows,
-            line->scale, line->second);
+        add(&d, line->label, BT_SERIES_LINE, record->columns[across], 1e3, record->columns[column],
+            rows, line->scale, line->second);
         for (int i = 0; i < curves->count; ++i)
-            if (curves->measured[i]->x_column == 0 && curves->measured[i]->y_column == column) {
+            if (curves->measured[i]->x_column == across &&
+                curves->measured[i]->y_column == column) {
                 add_measured(&d, curves->measured[i], 1e3, line->scale, line->second);
                 drawn[i] = true;
             }
     }
-    const bt_figure figure = {.name = p->name,
-                              .title = p->title,
-                              .x_label = "time from first contact, ms",
-                              .y_label = p->y_label,
-                              .y2_label = p->y2_label,
-                              .key_below = true,
-                              .x_max = 1e3 * end};
+    const bt_figure figure = {
+        .name = p->name,
+        .title = p->title,
+        .x_label = p->over_stroke ? "stroke, mm" : "time from first contact, ms",
+        .y_label = p->y_label,
+        .y2_label = p->y2_label,
+        .key_below = true,
+    };
     return write(&d, &figure, folder, diag);
 }
 

@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Draws the figures of docs/theory with the program that was built: scripts/figures.sh [bolter]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+bolter=${1:-build/bolter}
+made=$(mktemp -d)
+trap 'rm -rf "$made"' EXIT
+for rig in nose-drop main-drop hook-rebound; do
+    "$bolter" rig "$rig" studies/reference/study.yaml --quiet -o "$made"
+done
+mkdir -p docs/figures
+for name in nose_drop_stroke main_drop_strut main_drop_tyre hook_rebound_height \
+    hook_rebound_impact; do
+    cp "$made/figures/$name.svg" docs/figures/
+done
