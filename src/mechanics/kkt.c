@@ -311,8 +311,8 @@ static bt_status lay_out(bt_kkt* kkt, const bt_kkt_joint* joints, const pattern*
         edges += count;
         updates += node->update_count;
     }
-    kkt->edges = malloc(sizeof *kkt->edges * (size_t)(edges + 1));
-    kkt->updates = malloc(sizeof *kkt->updates * (size_t)(updates + 1));
+    kkt->edges = calloc((size_t)edges + 1, sizeof *kkt->edges);
+    kkt->updates = calloc((size_t)updates + 1, sizeof *kkt->updates);
     if (!kkt->edges || !kkt->updates)
         return BT_ERR_MEMORY;
     for (int k = 0; k < kkt->node_count; ++k)
