@@ -104,8 +104,9 @@ static void print_rigs(const bt_command* command, const bt_study* study) {
         printf("%s\n", study->title);
         for (int kind = 0; kind < BT_RIG_COUNT; ++kind)
             if (study->rig_inputs[kind].given)
-                printf("rig         %s, %d measured curves\n", bt_rig_keys[kind],
-                       study->rig_inputs[kind].curve_count);
+                printf("rig         %s, %d measured curve%s\n", bt_rig_keys[kind],
+                       study->rig_inputs[kind].curve_count,
+                       study->rig_inputs[kind].curve_count == 1 ? "" : "s");
         printf("results     %s\n", study->directory);
     }
 }

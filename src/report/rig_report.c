@@ -76,16 +76,17 @@ static void put_value(double value, char* text, size_t size) {
 }
 
 static void print_metric(FILE* out, const bt_metric* m) {
-    char value[40] = "none", reference[40] = "";
+    char value[40] = "none", reference[40];
+    const char* unit = isfinite(m->value) && strcmp(m->unit, "1") != 0 ? m->unit : "";
     if (isfinite(m->value))
         put_value(m->value, value, sizeof value);
-    fprintf(out, "%-24s %10s %-4s", m->name, value,
-            isfinite(m->value) && strcmp(m->unit, "1") != 0 ? m->unit : "");
+    fprintf(out, "%-24s %10s", m->name, value);
     if (isfinite(m->reference)) {
         put_value(m->reference, reference, sizeof reference);
-        fprintf(out, " %10s %8.2f %% %8.1f %%  %s", reference, m->error_percent, 100 * m->tolerance,
-                m->accepted ? "yes" : "NO");
-    }
+        fprintf(out, " %-4s %10s %8.2f %% %8.1f %%  %s", unit, reference, m->error_percent,
+                100 * m->tolerance, m->accepted ? "yes" : "NO");
+    } else if (*unit)
+        fprintf(out, " %s", unit);
     fputc('\n', out);
 }
 

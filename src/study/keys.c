@@ -29,7 +29,11 @@ static const chapter chapters[] = {
     {"reliability", &bt_reliability_group,
      "Further key: `conditions` maps paths of `uncertainty` to the means that are gone through\n"
      "one by one (`landing.pitch: [1 deg, 2 deg]`).\n"},
-    {"rigs", &bt_rigs_group, NULL},
+    {"rigs", &bt_rigs_group,
+     "Further key: `curve` in a rig's `reference` names CSV files of measured curves, relative to\n"
+     "the file that names them (`curve: stroke.csv`, `curve: [stroke.csv, load.csv]`); their "
+     "first\n"
+     "line names two columns of the rig's history and their units (`time [ms], stroke [mm]`).\n"},
 };
 enum { CHAPTERS = sizeof chapters / sizeof chapters[0] };
 
