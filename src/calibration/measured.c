@@ -154,10 +154,10 @@ bt_status bt_measured_read(const char* path, bt_measured** measured, bt_diag* di
     bt_measured* m = calloc(1, sizeof *m);
     bt_status status = BT_ERR_MEMORY;
     if (m) {
-        m->file = strdup(path);
+        m->file = path;
         m->x = malloc(BT_MEASURED_ROWS_MAX * sizeof *m->x);
         m->y = malloc(BT_MEASURED_ROWS_MAX * sizeof *m->y);
-        if (m->file && m->x && m->y)
+        if (m->x && m->y)
             status = read_text(text, m, diag);
     }
     free(text);
@@ -171,7 +171,6 @@ bt_status bt_measured_read(const char* path, bt_measured** measured, bt_diag* di
 void bt_measured_destroy(bt_measured* measured) {
     if (!measured)
         return;
-    free(measured->file);
     free(measured->x);
     free(measured->y);
     free(measured);

@@ -320,9 +320,16 @@ static void read_curve(reading* r, bt_target* t, const bt_node* file, const bt_e
     const char* slash = strrchr(c->file_name, '/');
     const int folder = slash && *file->text != '/' ? (int)(slash - c->file_name) + 1 : 0;
     snprintf(path, sizeof path, "%.*s%s", folder, c->file_name, file->text);
+    // a node of the document: messages name the file until they are handed on
+    const bt_node* name =
+        bt_document_node(&r->document, BT_NODE_SCALAR, BT_NOWHERE, path, strlen(path));
+    if (!name) {
+        r->status = BT_ERR_MEMORY;
+        return;
+    }
     bt_diag diag = bt_reader_diag(&r->reader);
     const int errors = r->reader.errors;
-    bt_status status = bt_measured_read(path, &t->measured, &diag);
+    bt_status status = bt_measured_read(name->text, &t->measured, &diag);
     if (status == BT_OK) {
         status = bt_experiment_bind(e->kind, t->measured, &diag);
         t->row_count = t->measured->count;

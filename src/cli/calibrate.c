@@ -111,7 +111,8 @@ static void print_fit(const bt_calibration* c, const bt_fit* fit, double seconds
            fit->landings, seconds, fit->cost, fit->start_cost,
            fit->converged ? "" : "; NOT converged, allow more `steps`");
     if (!all_met(c, fit))
-        printf("Some targets are not met: no values within the bounds do better near here.\n");
+        printf("Some targets are not met: nothing within the bounds does better near here; "
+               "`starts: 8` looks elsewhere too.\n");
     printf("%s holds the values found; use it with --set @%s\n", file, file);
 }
 
