@@ -1,0 +1,304 @@
+#include "reference.h"
+
+#include "landing/view.h"
+#include "mechanics/vec.h"
+
+#include <malloc.h>
+
+static const double deg = 3.14159265358979323846 / 180;
+
+/// A landing in a lander of its own.
+static bt_landing_result land_once(const bt_model_params* model, bt_landing_observer* observer,
+                                   void* user) {
+    bt_lander* lander = new_lander();
+    const bt_landing_result result = land(lander, model, observer, user);
+    bt_lander_destroy(lander);
+    return result;
+}
+
+/* ---- how each landing ends ---- */
+
+/// A long shank with a wide mouth that faces the cable: it goes straight into the throat.
+#define FACING_HEAD                                                                                \
+    "aircraft.hook.length=3.55 m", "aircraft.hook.down_stop=38 deg",                               \
+        "aircraft.hook.profile.head_angle=25 deg", "aircraft.hook.profile.point_ahead=100 mm",     \
+        "aircraft.hook.profile.lip_radius=12 mm", "aircraft.hook.profile.shoe_radius=100 mm",      \
+        "aircraft.hook.profile.throat_radius=30 mm", "aircraft.hook.profile.throat_length=30 mm",  \
+        "aircraft.hook.profile.lip_height=40 mm"
+
+static void each_way_to_end_has_a_landing(void** state) {
+    (void)state;
+    const struct {
+        bt_mode mode;
+        bt_model_params model;
+    } cases[] = {
+        {BT_MODE_ARM, REFERENCE("landing.distance=5 m")},
+        {BT_MODE_DIRECT, REFERENCE("landing.distance=5 m", FACING_HEAD)},
+        {BT_MODE_BOUNCED_OVER,
+         REFERENCE("landing.distance=1.5 m", "landing.sink_speed=6.3 m/s", "landing.pitch=8 deg",
+                   "aircraft.hook.deck_contact.dissipation=0.3 s/m")},
+        {BT_MODE_PASSED_OVER, REFERENCE("landing.distance=-2 m")},
+        {BT_MODE_RIDDEN_OVER, REFERENCE("landing.distance=1.5 m", "landing.sink_speed=6.3 m/s")},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        const bt_landing_result r = land_once(&cases[k].model, NULL, NULL);
+        assert_string_equal(bt_mode_name(r.mode), bt_mode_name(cases[k].mode));
+        const bool caught = r.mode == BT_MODE_ARM || r.mode == BT_MODE_DIRECT;
+        assert_int_equal(r.outcome, caught ? BT_ENGAGED : BT_MISSED);
+        assert_int_equal(r.margin_m > 0, caught);
+        assert_int_equal(r.throat_force_peak_N > 0, caught);
+        assert_int_equal(r.retained, caught);
+        const bool touched = caught || r.mode == BT_MODE_RIDDEN_OVER;
+        assert_int_equal(isnan(r.time_of_contact_s), !touched);
+        assert_int_equal(r.bounce_count > 0, r.mode != BT_MODE_PASSED_OVER);
+        if (caught)
+            assert_true(r.cable_tension_max_N > 2 * cases[k].model.deck.cable.pretension_N);
+    }
+}
+
+static void a_step_far_too_long_fails_and_says_where_and_when(void** state) {
+    (void)state;
+    bt_model_params model = REFERENCE("landing.distance=5 m");
+    model.landing.solver.airframe_step_s = model.landing.solver.contact_step_s = 1e-2;
+    bt_lander* lander = new_lander();
+    bt_landing_result r;
+    assert_int_equal(bt_lander_run(lander, &model, &r, NULL, NULL, NULL), BT_OK);
+    assert_int_equal(r.outcome, BT_FAILED);
+    assert_int_equal(r.mode, BT_MODE_NONE);
+    assert_true(isnan(r.margin_m));
+    assert_true(strlen(r.failed_element) > 0);
+    assert_true(strlen(r.failed_quantity) > 0);
+    assert_true(isfinite(r.failed_time_s));
+    // and the lander is none the worse for it
+    model.landing.solver.airframe_step_s = model.landing.solver.contact_step_s = 1e-4;
+    const bt_landing_result after = land(lander, &model, NULL, NULL);
+    const bt_landing_result fresh = land_once(&model, NULL, NULL);
+    assert_true(after.state_hash == fresh.state_hash);
+    bt_lander_destroy(lander);
+}
+
+/* ---- distance ---- */
+
+/// The first view, carried on to time 0 along the glide.
+typedef struct touchdown {
+    bool seen;
+    double hook_x, lowest, wheels_x;
+    const bt_model_params* model;
+} touchdown;
+
+/// Lowest point of a disc about a centre with a normal.
+static void lowest_of_disc(const double centre[3], double radius, const double* rotation,
+                           double lowest[3]) {
+    const double side[3] = {rotation[1], rotation[4], rotation[7]};
+    double down[3] = {0, 0, -1};
+    bt_add_scaled(down, side[2], side);
+    const double length = bt_norm(down);
+    for (int i = 0; i < 3; ++i)
+        lowest[i] = centre[i] + radius * down[i] / length;
+}
+
+static void see_touchdown(void* user, const bt_landing_view* view) {
+    touchdown* t = user;
+    if (t->seen)
+        return;
+    t->seen = true;
+    const double to_go = -view->time_s;
+    const bt_aircraft_params* a = &t->model->aircraft;
+    const bt_landing_params* p = &t->model->landing;
+    double at[3];
+    lowest_of_disc(view->hook_shoe_m, a->hook.profile.shoe_radius_m,
+                   view->rotation + 9 * BT_BODY_HOOK, at);
+    t->hook_x = at[0] + to_go * p->horizontal_speed_mps;
+    t->lowest = at[2];
+    t->wheels_x = 0;
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        const int body = BT_BODY_NOSE_WHEEL + leg;
+        const double radius =
+            leg == BT_LEG_NOSE ? a->nose_gear.tyre.radius_m : a->main_gear.tyre.radius_m;
+        lowest_of_disc(view->q + 7 * body, radius, view->rotation + 9 * body, at);
+        t->lowest = fmin(t->lowest, at[2]);
+        if (leg != BT_LEG_NOSE)
+            t->wheels_x += 0.5 * (at[0] + to_go * p->horizontal_speed_mps);
+    }
+    t->lowest -= to_go * p->sink_speed_mps;
+}
+
+static void distance_is_exact_by_construction(void** state) {
+    (void)state;
+    static const double pitch[] = {3, 0, -2, 8, 3, 3}, roll[] = {0, 0, 0, 0, 2, -3};
+    static const double yaw[] = {0, 0, 0, 0, -2, 4}, distance[] = {6, 0.7, 11, 3, 8, -1};
+    bt_lander* lander = new_lander();
+    for (int k = 0; k < 6; ++k)
+        for (int from = BT_DISTANCE_FROM_HOOK; from <= BT_DISTANCE_FROM_MAIN_WHEELS; ++from) {
+            bt_model_params model = REFERENCE("landing.off_centre=0.5 m");
+            model.landing.pitch_rad = pitch[k] * deg;
+            model.landing.roll_rad = roll[k] * deg;
+            model.landing.yaw_rad = yaw[k] * deg;
+            model.landing.distance_m = distance[k];
+            model.landing.distance_from = from;
+            touchdown t = {.model = &model};
+            land(lander, &model, see_touchdown, &t);
+            // the cable rests at x = 0, the first part touches at time 0
+            BT_ASSERT_NEAR(from == BT_DISTANCE_FROM_HOOK ? t.hook_x : t.wheels_x, -distance[k], 0,
+                           1e-12);
+            BT_ASSERT_NEAR(t.lowest, 0, 0, 1e-12);
+        }
+    bt_lander_destroy(lander);
+}
+
+/* ---- symmetry ---- */
+
+typedef struct lateral {
+    double fuselage_m, attitude, cable;
+} lateral;
+
+static void see_lateral(void* user, const bt_landing_view* view) {
+    lateral* l = user;
+    l->fuselage_m = fmax(l->fuselage_m, fabs(view->q[1]));
+    // roll and yaw of the fuselage
+    l->attitude = fmax(l->attitude, fmax(fabs(view->rotation[7]), fabs(view->rotation[3])));
+    const int n = view->cable_count;
+    for (int i = 0; i < n / 2; ++i)
+        l->cable = fmax(l->cable, fabs(view->cable_z[i] - view->cable_z[n - 1 - i]));
+}
+
+static void a_symmetric_landing_stays_symmetric(void** state) {
+    (void)state;
+    const bt_model_params cases[] = {REFERENCE("landing.distance=5 m"),
+                                     REFERENCE("landing.distance=9 m")};
+    for (int k = 0; k < 2; ++k) {
+        lateral l = {0};
+        const bt_landing_result r = land_once(&cases[k], see_lateral, &l);
+        BT_ASSERT_NEAR(l.fuselage_m, 0, 0, 1e-14);
+        BT_ASSERT_NEAR(l.attitude, 0, 0, 1e-14);
+        BT_ASSERT_NEAR(l.cable, 0, 0, 1e-11); // measured 9e-14
+        BT_ASSERT_NEAR(r.strut_stroke_max_m[BT_LEG_LEFT], r.strut_stroke_max_m[BT_LEG_RIGHT], 1e-9,
+                       0);
+    }
+}
+
+static void a_mirrored_landing_gives_the_mirrored_result(void** state) {
+    (void)state;
+    bt_model_params model = REFERENCE("landing.distance=6 m", "landing.roll=1.5 deg",
+                                      "landing.yaw=1 deg", "landing.off_centre=0.8 m");
+    const bt_landing_result a = land_once(&model, NULL, NULL);
+    model.landing.roll_rad *= -1;
+    model.landing.yaw_rad *= -1;
+    model.landing.off_centre_m *= -1;
+    const bt_landing_result b = land_once(&model, NULL, NULL);
+    assert_int_equal(a.mode, b.mode);
+    BT_ASSERT_NEAR(a.margin_m, b.margin_m, 0, 1e-7);
+    BT_ASSERT_NEAR(a.hook_deck_force_peak_N, b.hook_deck_force_peak_N, 1e-9, 0);
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        const int other = leg == BT_LEG_NOSE ? leg : BT_LEG_LEFT + BT_LEG_RIGHT - leg;
+        BT_ASSERT_NEAR(a.strut_stroke_max_m[leg], b.strut_stroke_max_m[other], 1e-7, 1e-12);
+        BT_ASSERT_NEAR(a.tyre_force_max_N[leg], b.tyre_force_max_N[other], 1e-6, 1e-6);
+    }
+    // and the two sides differ, so that the comparison says something
+    assert_true(fabs(a.strut_stroke_max_m[BT_LEG_LEFT] - a.strut_stroke_max_m[BT_LEG_RIGHT]) >
+                1e-3);
+}
+
+static void off_centre_and_yawed_landings_engage_too(void** state) {
+    (void)state;
+    bt_lander* lander = new_lander();
+    const bt_model_params cases[] = {
+        REFERENCE("landing.distance=5 m", "landing.off_centre=2 m"),
+        REFERENCE("landing.distance=5 m", "landing.off_centre=-4 m"),
+        REFERENCE("landing.distance=5 m", "landing.yaw=4 deg"),
+        REFERENCE("landing.distance=5 m", "landing.roll=3 deg"),
+    };
+    for (int k = 0; k < 4; ++k)
+        assert_int_equal(land(lander, &cases[k], NULL, NULL).outcome, BT_ENGAGED);
+    bt_lander_destroy(lander);
+}
+
+/* ---- margin ---- */
+
+/// The label changes where the margin goes through zero, and the margin goes there gradually.
+static void the_margin_goes_through_zero_where_the_label_changes(void** state) {
+    (void)state;
+    bt_lander* lander = new_lander();
+    static const double distances[] = {2, 8, 8.2}; // bouncing; just beaten down
+    for (int k = 0; k < 3; ++k) {
+        double before = NAN, at_flip = NAN;
+        int flips = 0;
+        bool caught = false;
+        for (double lip = 0.021; lip <= 0.0301; lip += 0.0005) {
+            bt_model_params model = REFERENCE("aircraft.hook.profile.throat_length=27 mm");
+            model.landing.distance_m = distances[k];
+            model.aircraft.hook.profile.lip_height_m = lip;
+            const bt_landing_result r = land(lander, &model, NULL, NULL);
+            const bool engaged = r.outcome == BT_ENGAGED;
+            if (!isnan(before)) {
+                // half a millimetre of lip is half a millimetre of margin
+                BT_ASSERT_NEAR(r.margin_m - before, -0.0005, 0, 0.0005);
+                if (engaged != caught) {
+                    ++flips;
+                    at_flip = r.margin_m;
+                }
+            }
+            before = r.margin_m;
+            caught = engaged;
+        }
+        assert_int_equal(flips, 1);
+        assert_false(caught);
+        BT_ASSERT_NEAR(at_flip, 0, 0, 1e-3);
+    }
+    bt_lander_destroy(lander);
+}
+
+/* ---- memory ---- */
+
+static size_t allocated(void) {
+    const struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
+static void a_landing_in_flight_takes_at_most_a_megabyte(void** state) {
+    (void)state;
+    const bt_model_params model = reference_model(NULL, 0);
+    const size_t before = allocated();
+    bt_lander* lander = new_lander();
+    land(lander, &model, NULL, NULL);
+    const size_t taken = allocated() - before;
+    if (taken > 1024 * 1024)
+        fail_msg("a lander takes %zu bytes", taken);
+    const size_t after_first = allocated();
+    for (int k = 0; k < 3; ++k)
+        land(lander, &model, NULL, NULL);
+    assert_int_equal(allocated(), after_first);
+    bt_lander_destroy(lander);
+    assert_int_equal(allocated(), before);
+}
+
+static void a_mesh_beyond_the_memory_is_refused_with_the_reason(void** state) {
+    (void)state;
+    bt_model_params model = reference_model(NULL, 0);
+    model.deck.cable.mesh.fine_length_m = model.deck.cable.mesh.medium_length_m =
+        model.deck.cable.mesh.coarse_length_m = 0.01;
+    bt_lander* lander = new_lander();
+    bt_landing_result r;
+    messages kept = {""};
+    bt_diag diag = {.sink = keep_message, .user = &kept};
+    assert_int_equal(bt_lander_run(lander, &model, &r, NULL, NULL, &diag), BT_ERR_INPUT);
+    assert_non_null(strstr(kept.text, "deck.cable.mesh"));
+    model = reference_model(NULL, 0);
+    land(lander, &model, NULL, NULL); // the lander still works
+    bt_lander_destroy(lander);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_way_to_end_has_a_landing),
+        cmocka_unit_test(a_step_far_too_long_fails_and_says_where_and_when),
+        cmocka_unit_test(distance_is_exact_by_construction),
+        cmocka_unit_test(a_symmetric_landing_stays_symmetric),
+        cmocka_unit_test(a_mirrored_landing_gives_the_mirrored_result),
+        cmocka_unit_test(off_centre_and_yawed_landings_engage_too),
+        cmocka_unit_test(the_margin_goes_through_zero_where_the_label_changes),
+        cmocka_unit_test(a_landing_in_flight_takes_at_most_a_megabyte),
+        cmocka_unit_test(a_mesh_beyond_the_memory_is_refused_with_the_reason),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
