@@ -97,12 +97,13 @@ typedef struct bt_study {
     bt_input inputs[BT_INPUT_MAX]; ///< in the order of the model's tables
     int condition_count;
     bt_condition conditions[BT_CONDITION_MAX];
-    char* text;           ///< the study as one file: aircraft and deck included, --set applied,
-                          ///< every key with the value used, in SI; reads back to the same bits
-    uint64_t hash;        ///< of what a campaign's runs depend on: model, axes and their bounds (or
-                          ///< distributions), design, seed; not of the number of samples (a
-                          ///< campaign may grow), threads, comments or later chapters
-    char directory[4096]; ///< the study directory: -o, or the file's name without .yaml beside it
+    char* text;    ///< the study as one file: aircraft and deck included, --set applied,
+                   ///< every key with the value used, in SI; reads back to the same bits (the
+                   ///< names of measured curves are left out)
+    uint64_t hash; ///< of what a campaign's runs depend on: model, axes and their bounds (or
+                   ///< distributions), design, seed; not of the number of samples (a
+                   ///< campaign may grow), threads, comments or later chapters
+    char directory[4096];   ///< the study directory: -o, or the file's name without .yaml beside it
     struct bt_node* places; ///< owns the file names of `where` and of curves
 } bt_study;
 
