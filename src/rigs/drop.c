@@ -181,9 +181,11 @@ static bt_status run(const bt_gear_params* gear, const bt_drop_params* drop, dro
     double channel[BT_DROP_CHANNELS];
     look(d, channel);
     bt_rig_show(&d->rig, BT_DROP_CHANNELS, bt_drop_channels, channel);
-    while (d->rig.state.time_s < drop->duration_s - 0.5 * drop->step_s) {
+    while (d->rig.state.time_s < drop->duration_s - 1e-6 * drop->step_s) {
+        const double left = drop->duration_s - d->rig.state.time_s;
         d->rig.state.applied[6 * BODY_MASS + 2] = d->lift_N;
-        BT_TRY(bt_rig_step(&d->rig, next_step(drop, d, channel[STROKE], channel[STROKE_RATE])));
+        const double step = next_step(drop, d, channel[STROKE], channel[STROKE_RATE]);
+        BT_TRY(bt_rig_step(&d->rig, fmin(step, left)));
         look(d, channel);
         keep(&r, d, channel);
         bt_rig_show(&d->rig, BT_DROP_CHANNELS, bt_drop_channels, channel);
