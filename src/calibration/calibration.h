@@ -37,6 +37,7 @@ typedef struct bt_override {
     double value;  ///< SI
 } bt_override;
 
+/// In the order of bt_specimen_part.
 typedef enum bt_experiment_kind {
     BT_EXPERIMENT_LANDING,
     BT_EXPERIMENT_NOSE_DROP,
@@ -80,6 +81,7 @@ typedef struct bt_target {
 
 typedef struct bt_calibration {
     bt_specimen base; ///< the study with the calibration file's common overrides
+    bool rigs_only;   ///< the study describes no landing
     int parameter_count;
     bt_parameter parameters[BT_PARAMETER_MAX];
     int experiment_count;

@@ -431,10 +431,14 @@ static void read_target(reading* r, const bt_node* node, int number) {
     if (weight && read_quantity(r, weight, "1", place, &t->weight) && !(t->weight > 0))
         bt_reader_error(&r->reader, weight->where, "%s: must be above 0", place);
     const bt_node* curve = bt_node_child(node, "curve");
+    const int errors = r->reader.errors;
     if (curve)
         read_curve_target(r, t, node, curve, &e, path);
     else
         read_metric_target(r, t, node, &e, path);
+    if (c->rigs_only && e.kind == BT_EXPERIMENT_LANDING && r->reader.errors == errors)
+        bt_reader_error(&r->reader, node->where, "%s: the study describes rigs and no landing",
+                        path);
     c->row_count += t->row_count;
 }
 
@@ -481,6 +485,7 @@ static void read_root(reading* r, const bt_node* root) {
 static void set_base(bt_calibration* c, const bt_study* study) {
     c->base.model = study->model;
     c->base.rigs = study->rigs;
+    c->rigs_only = study->rigs_only;
     if (c->base.model.landing.distance_m < BT_SWEEP_CLEAR_DISTANCE_M)
         c->base.model.landing.distance_m = BT_SWEEP_CLEAR_DISTANCE_M;
 }

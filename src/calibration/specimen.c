@@ -47,8 +47,17 @@ void bt_specimen_nearest(const char* typed, char* best, size_t size) {
     bt_group_walk(&bt_rigs_group, compare, &n);
 }
 
-bt_status bt_specimen_check(const bt_specimen* specimen, bt_diag* diag) {
-    const bt_status model = bt_group_check(&bt_model_group, &specimen->model, "", diag);
+bt_status bt_specimen_check(const bt_specimen* specimen, bt_specimen_part part, bt_diag* diag) {
+    const bt_aircraft_params* a = &specimen->model.aircraft;
+    if (part == BT_PART_LANDING)
+        return bt_group_check(&bt_model_group, &specimen->model, "", diag);
+    bt_status status;
+    if (part == BT_PART_HOOK)
+        status = bt_group_check(&bt_hook_group, &a->hook, "aircraft.hook", diag);
+    else if (part == BT_PART_NOSE_GEAR)
+        status = bt_group_check(&bt_gear_group, &a->nose_gear, "aircraft.nose_gear", diag);
+    else
+        status = bt_group_check(&bt_gear_group, &a->main_gear, "aircraft.main_gear", diag);
     const bt_status rigs = bt_group_check(&bt_rigs_group, &specimen->rigs, "rigs", diag);
-    return model != BT_OK ? model : rigs;
+    return status != BT_OK ? status : rigs;
 }

@@ -17,7 +17,16 @@ const bt_field* bt_specimen_find(const char* path, size_t* offset);
 /// The path of a number nearest to what was typed, into `best`.
 void bt_specimen_nearest(const char* typed, char* best, size_t size);
 
-/// Checks model and rigs; messages as bt_group_check.
-BT_CHECKED bt_status bt_specimen_check(const bt_specimen* specimen, bt_diag* diag);
+/// What an experiment on a specimen needs of it.
+typedef enum bt_specimen_part {
+    BT_PART_LANDING, ///< the whole model
+    BT_PART_NOSE_GEAR,
+    BT_PART_MAIN_GEAR,
+    BT_PART_HOOK,
+} bt_specimen_part;
+
+/// Checks a part, and the rigs where it is not a landing; messages as bt_group_check.
+BT_CHECKED bt_status bt_specimen_check(const bt_specimen* specimen, bt_specimen_part part,
+                                       bt_diag* diag);
 
 #endif

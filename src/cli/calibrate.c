@@ -246,7 +246,7 @@ static bt_status calibrate_into(const bt_command* command, const bt_study* study
 static bt_status run(const bt_command* command) {
     bt_diag diag = bt_stderr_diag();
     bt_study study;
-    BT_TRY(bt_command_study(command, &study));
+    BT_TRY(bt_command_rigs(command, &study));
     bt_calibration* c = malloc(sizeof *c);
     bt_status status = BT_ERR_MEMORY;
     if (c)

@@ -1,0 +1,199 @@
+/// `bolter sweep`, `bolter calibrate` and `--set @FILE` as a user types them.
+#define _GNU_SOURCE
+#include "near.h"
+
+#include "campaign/directory.h"
+#include "toy_study.h"
+
+#include <sys/wait.h>
+
+#define REFERENCE "studies/reference/study.yaml"
+#define COARSE                                                                                     \
+    "--set deck.cable.mesh.fine_length='0.6 m' --set deck.cable.mesh.medium_length='0.6 m' "       \
+    "--set deck.cable.mesh.coarse_length='0.6 m' "
+
+typedef struct fixture {
+    char* directory;
+    char *out, *err; ///< of the last command
+} fixture;
+
+static int setup(void** state) {
+    fixture* f = calloc(1, sizeof *f);
+    f->directory = toy_directory();
+    *state = f;
+    return 0;
+}
+
+static int teardown(void** state) {
+    fixture* f = *state;
+    toy_directory_remove(f->directory);
+    free(f->out);
+    free(f->err);
+    free(f);
+    return 0;
+}
+
+static char* read_text(const fixture* f, const char* name) {
+    char path[4096];
+    char* text = NULL;
+    assert_int_equal(bt_file_read(toy_path(path, f->directory, name), &text, NULL, NULL), BT_OK);
+    return text;
+}
+
+/// Runs `bolter ARGUMENTS` through the shell, "%" standing for the test's directory.
+static int bolter(fixture* f, const char* arguments) {
+    const char* program = getenv("BOLTER");
+    char* command = NULL;
+    size_t size = 0;
+    FILE* text = open_memstream(&command, &size);
+    fprintf(text, "'%s' ", program ? program : "build/bolter");
+    for (const char* c = arguments; *c; ++c)
+        if (*c == '%')
+            fputs(f->directory, text);
+        else
+            fputc(*c, text);
+    fprintf(text, " >'%s/out' 2>'%s/err'", f->directory, f->directory);
+    fclose(text);
+    const int code = system(command);
+    free(command);
+    free(f->out);
+    free(f->err);
+    f->out = read_text(f, "out");
+    f->err = read_text(f, "err");
+    return WIFEXITED(code) ? WEXITSTATUS(code) : -1;
+}
+
+static void write_file(const fixture* f, const char* name, const char* text) {
+    char path[4096];
+    assert_int_equal(bt_file_write(toy_path(path, f->directory, name), text, strlen(text), NULL),
+                     BT_OK);
+}
+
+static void assert_has(const char* text, const char* part) {
+    if (!strstr(text, part))
+        fail_msg("\"%s\" is not in:\n%s", part, text);
+}
+
+static bool exists(const fixture* f, const char* name) {
+    char path[4096];
+    return access(toy_path(path, f->directory, name), F_OK) == 0;
+}
+
+static void sweep_draws_the_papers_three_figures(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "sweep " REFERENCE " " COARSE "-o %/study"), 0);
+    assert_has(f->out, "landing.sink_speed");
+    assert_has(f->out, "(paper, 8 deg: 81 mm, 4.57 m)");
+    static const char* const names[] = {"fig14", "fig15", "fig16"};
+    for (int i = 0; i < 3; ++i) {
+        char name[64];
+        snprintf(name, sizeof name, "study/figures/%s.csv", names[i]);
+        assert_true(exists(f, name));
+        snprintf(name, sizeof name, "study/figures/%s.gp", names[i]);
+        assert_true(exists(f, name));
+    }
+}
+
+static void sweep_prints_one_json_object(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "sweep " REFERENCE " " COARSE "--json -o %/study --key "
+                               "landing.pitch --values '0 deg, 8 deg'"),
+                     0);
+    assert_int_equal(f->out[0], '{');
+    assert_has(f->out, "\"key\": \"landing.pitch\"");
+    assert_has(f->out, "\"unit\": \"rad\"");
+    assert_has(f->out, "\"height_m\": 0.0");
+    assert_true(exists(f, "study/figures/sweep_landing_pitch.csv"));
+}
+
+static void sweep_without_gnuplot_leaves_data_and_script(void** state) {
+    fixture* f = *state;
+    char* path = strdup(getenv("PATH"));
+    setenv("PATH", f->directory, 1);
+    const int code = bolter(f, "sweep " REFERENCE " " COARSE "-o %/study --key landing.pitch "
+                               "--values '2 deg'");
+    setenv("PATH", path, 1);
+    free(path);
+    assert_int_equal(code, 0);
+    assert_has(f->err, "warning: sweep_landing_pitch was not drawn: there is no gnuplot here");
+    assert_true(exists(f, "study/figures/sweep_landing_pitch.gp"));
+    assert_false(exists(f, "study/figures/sweep_landing_pitch.png"));
+}
+
+static void sweep_refuses_what_it_cannot_vary(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "sweep " REFERENCE " --key landing.pitch"), 2);
+    assert_has(f->err, "--key and --values go together");
+    assert_int_equal(bolter(f, "sweep " REFERENCE " -o %/study --key landing.pich --values 1"), 3);
+    assert_has(f->err, "did you mean \"landing.pitch\"?");
+    assert_int_equal(
+        bolter(f, "sweep " REFERENCE " -o %/study --key landing.pitch --values '1 deg, 90 deg'"),
+        3);
+    assert_has(f->err, "landing.pitch: 90 deg is outside");
+}
+
+static const char calibration[] =
+    "parameters:\n"
+    "  aircraft.main_gear.oleo.discharge: {lower: 0.5, upper: 1.2, start: 1.1}\n"
+    "targets:\n"
+    "  - {metric: main_drop.stroke_max, value: 0.5143 ft, tolerance: 1 %}\n"
+    "  - {metric: main_drop.tyre_force_max, value: 7262.9 lbf, tolerance: 1 %}\n";
+
+static void calibrate_writes_an_overlay_that_set_reads(void** state) {
+    fixture* f = *state;
+    write_file(f, "calibration.yaml", calibration);
+    // the file describes a rig and no landing: the discharge of its strut is 0.9
+    assert_int_equal(bolter(f, "calibrate studies/rigs/tr1154.yaml %/calibration.yaml "
+                               "-o %/found.yaml"),
+                     0);
+    assert_has(f->out, "the data identify 1 of 1");
+    char* overlay = read_text(f, "found.yaml");
+    const char* line = strstr(overlay, "\naircraft.main_gear.oleo.discharge: ");
+    assert_non_null(line);
+    BT_ASSERT_NEAR(atof(strchr(line, ' ')), 0.9, 1e-3, 0);
+    assert_has(overlay, "[calibrated]");
+    free(overlay);
+    assert_int_equal(bolter(f, "rig main-drop studies/rigs/tr1154.yaml --json -o %/rig "
+                               "--set aircraft.main_gear.oleo.discharge=0.5 --set @%/found.yaml"),
+                     0);
+    const char* stroke = strstr(f->out, "\"stroke_max_m\"");
+    assert_non_null(stroke);
+    BT_ASSERT_NEAR(atof(strstr(stroke, "\"value\": ") + 9), 0.5143 * 0.3048, 1e-3, 0);
+}
+
+static void calibrate_says_what_is_wrong(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "calibrate " REFERENCE), 2);
+    assert_int_equal(bolter(f, "calibrate " REFERENCE " %/none.yaml"), 5);
+    write_file(f, "calibration.yaml",
+               "parameters:\n  aircraft.main_gear.oleo.discharge: {lower: 0.5, upper: 1.2}\n"
+               "targets:\n  - {metric: bounce_height, value: 5 mm, tolerance: 1 %}\n");
+    assert_int_equal(bolter(f, "calibrate studies/rigs/tr1154.yaml %/calibration.yaml"), 3);
+    assert_has(f->err, "calibration.yaml:4:5: error: targets[1]: the study describes rigs and no "
+                       "landing");
+}
+
+static void an_overlay_with_faults_is_refused_with_the_line(void** state) {
+    fixture* f = *state;
+    write_file(f, "bad.yaml", "# comment\n\nlanding.pitch: 4 deg # [calibrated]\nlanding.pitch\n");
+    assert_int_equal(bolter(f, "check " REFERENCE " --set @%/bad.yaml"), 3);
+    assert_has(f->err, "bad.yaml:4:1: error: a line PATH: VALUE is wanted");
+    write_file(f, "bad.yaml", "landing.pich: 4 deg\n");
+    assert_int_equal(bolter(f, "check " REFERENCE " --set @%/bad.yaml"), 3);
+    assert_has(f->err, "landing.pich");
+    assert_int_equal(bolter(f, "check " REFERENCE " --set @%/none.yaml"), 5);
+}
+
+int main(void) {
+#define WITH_DIRECTORY(test) cmocka_unit_test_setup_teardown(test, setup, teardown)
+    const struct CMUnitTest tests[] = {
+        WITH_DIRECTORY(sweep_draws_the_papers_three_figures),
+        WITH_DIRECTORY(sweep_prints_one_json_object),
+        WITH_DIRECTORY(sweep_without_gnuplot_leaves_data_and_script),
+        WITH_DIRECTORY(sweep_refuses_what_it_cannot_vary),
+        WITH_DIRECTORY(calibrate_writes_an_overlay_that_set_reads),
+        WITH_DIRECTORY(calibrate_says_what_is_wrong),
+        WITH_DIRECTORY(an_overlay_with_faults_is_refused_with_the_line),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
