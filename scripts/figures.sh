@@ -9,8 +9,9 @@ trap 'rm -rf "$made"' EXIT
 for rig in nose-drop main-drop hook-rebound; do
     "$bolter" rig "$rig" studies/reference/study.yaml --quiet -o "$made"
 done
+"$bolter" sweep studies/reference/study.yaml --quiet -o "$made"
 mkdir -p docs/figures
 for name in nose_drop_stroke main_drop_strut main_drop_tyre hook_rebound_height \
-    hook_rebound_impact; do
+    hook_rebound_impact fig14 fig15 fig16; do
     cp "$made/figures/$name.svg" docs/figures/
 done

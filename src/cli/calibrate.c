@@ -24,7 +24,7 @@ static void wish_text(const bt_target* t, char* text, size_t size) {
 }
 
 static void print_targets(const bt_calibration* c, const bt_fit* fit) {
-    printf("%-52s %-12s %-14s %-14s %s\n", "target", "wanted", "before", "got", "error");
+    printf("%-60s %-12s %-14s %-14s %s\n", "target", "wanted", "before", "got", "error");
     for (int i = 0; i < c->target_count; ++i) {
         const bt_target* t = &c->targets[i];
         char wanted[96], before[96], got[96], error[32];
@@ -35,7 +35,7 @@ static void print_targets(const bt_calibration* c, const bt_fit* fit) {
             snprintf(error, sizeof error, "%+.2f %%", 100 * (fit->targets[i].got / t->wanted - 1));
         else
             snprintf(error, sizeof error, "%.2f tolerances", fit->targets[i].residual);
-        printf("%-52.52s %-12s %-14s %-14s %s%s\n", t->name, wanted, before, got, error,
+        printf("%-60.60s %-12s %-14s %-14s %s%s\n", t->name, wanted, before, got, error,
                fit->targets[i].met ? "" : "  NOT MET");
     }
 }
@@ -61,12 +61,12 @@ static void print_parameters(const bt_calibration* c, const bt_fit* fit) {
 static void print_sensitivity(const bt_calibration* c, const bt_fit* fit) {
     printf(
         "\nsensitivity: change of a target, in its tolerances, per tenth of a parameter's range\n");
-    printf("%-52s", "");
+    printf("%-60s", "");
     for (int k = 0; k < c->parameter_count; ++k)
         printf(" %9c", 'a' + k);
     putchar('\n');
     for (int i = 0; i < c->target_count; ++i) {
-        printf("%-52.52s", c->targets[i].name);
+        printf("%-60.60s", c->targets[i].name);
         for (int k = 0; k < c->parameter_count; ++k)
             printf(" %9.2f", fit->sensitivity[i][k] / 10);
         putchar('\n');
