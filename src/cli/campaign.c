@@ -11,7 +11,7 @@ static bool read_shard(const bt_command* command, const char* text, int* shard, 
     char first[16] = "";
     double i = 0, n = 0;
     const size_t length = strcspn(text, "/");
-    if (text[length] == '/' && length < sizeof first) {
+    if (length < sizeof first && text[length] == '/') {
         memcpy(first, text, length);
         if (bt_number_parse(first, &i) == BT_OK &&
             bt_number_parse(text + length + 1, &n) == BT_OK && i == floor(i) && n == floor(n) &&
