@@ -47,6 +47,8 @@ static void place_parts(const bt_aircraft_params* p, bt_airframe* f) {
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
         const bt_gear_params* gear = gear_of(p, leg);
         bt_tyre_prepare(&gear->tyre, &f->tyre[leg]);
+        bt_oleo_prepare(&gear->oleo, &f->oleo[leg]);
+        f->unsprung_kg[leg] = gear->piston_mass_kg + gear->wheel_mass_kg;
         f->tyre_width_m[leg] = gear->tyre.width_m * (double)gear->tyre.tyres;
         f->axle_m[leg][0] = gear->station_m;
         f->axle_m[leg][1] = side[leg] * gear->half_track_m;
@@ -181,8 +183,7 @@ static void add_legs(const bt_aircraft_params* p, bt_airframe* f) {
                                    .axis_b = {0, 1, 0}};
         bt_system_add_joint(f->system, &axle);
 
-        bt_strut strut = {.axis_a = {0, 0, 1}};
-        bt_oleo_prepare(&gear->oleo, &strut.oleo);
+        bt_strut strut = {.oleo = f->oleo[leg], .axis_a = {0, 0, 1}};
         memcpy(strut.point_a_m, slide.point_a_m, sizeof strut.point_a_m);
         f->strut[leg] = bt_system_add_element(f->system, &(bt_element){.type = &bt_strut_type,
                                                                        .name = strut_names[leg],
@@ -252,13 +253,8 @@ static bt_status assemble(const bt_aircraft_params* p, double gravity_mps2, bt_a
 
     // how the parts hang in the glide, where lift carries lift_ratio of the weight
     const double felt = p->lift_ratio * gravity_mps2;
-    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
-        const bt_gear_params* gear = gear_of(p, leg);
-        bt_oleo oleo;
-        bt_oleo_prepare(&gear->oleo, &oleo);
-        f->stroke_m[leg] =
-            bt_oleo_hanging_stroke(&oleo, felt * (gear->piston_mass_kg + gear->wheel_mass_kg));
-    }
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
+        f->stroke_m[leg] = bt_oleo_hanging_stroke(&f->oleo[leg], felt * f->unsprung_kg[leg]);
     const bt_hook_params* hook = &p->hook;
     f->hook_angle_rad = bt_hook_hold_hanging_angle(
         &damper, hook->down_stop_rad, hook->damper_lever_m, hook->damper_angle_rad,

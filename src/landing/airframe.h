@@ -4,6 +4,7 @@
 #ifndef BT_LANDING_AIRFRAME_H
 #define BT_LANDING_AIRFRAME_H
 
+#include "elements/oleo.h"
 #include "landing/profile.h"
 #include "landing/shoe.h"
 #include "landing/view.h"
@@ -13,6 +14,8 @@ typedef struct bt_airframe {
     bt_system* system;
     bt_profile profile;
     bt_tyre tyre[BT_LEG_COUNT];
+    bt_oleo oleo[BT_LEG_COUNT];
+    double unsprung_kg[BT_LEG_COUNT];
     double tyre_width_m[BT_LEG_COUNT]; ///< all tyres of the leg
     double fuselage_m[3];              ///< fuselage's centre of mass from the aircraft's
     double axle_m[BT_LEG_COUNT][3];    ///< axles from the centre of gravity, struts extended

@@ -214,9 +214,24 @@ static void start(run* r) {
                      r->params->aircraft.hook.cable_contact.friction);
 }
 
+/// The longest step at which the oil damping of the unsprung masses is stable: 0.8 of
+/// m / (dF_h/ds'), dF_h/ds' = 2 F_h / s'. A rebound valve asks for it when a wheel leaves the deck.
+static double damped_step(const run* r) {
+    const bt_airframe* f = &r->lander->airframe;
+    double step_s = INFINITY;
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        const double* strut = bt_system_element_output(f->system, &r->lander->state, f->strut[leg]);
+        const double rate = strut[BT_STRUT_RATE];
+        const double oil_N = bt_oleo_oil_force(&f->oleo[leg], strut[BT_STRUT_STROKE], rate);
+        if (oil_N != 0)
+            step_s = fmin(step_s, 0.4 * f->unsprung_kg[leg] * rate / oil_N);
+    }
+    return step_s;
+}
+
 /// The airframe's step: fine around an impact of the shoe on the deck and while the hook is near
 /// the cable, half the coarse one while the shoe slides or hops by less than a millimetre.
-static double choose_step(const run* r) {
+static double wanted_step(const run* r) {
     static const double impact_mps = 0.5, steps_ahead = 4;
     const bt_lander* l = r->lander;
     const bt_solver_params* s = &r->params->landing.solver;
@@ -229,6 +244,10 @@ static double choose_step(const run* r) {
     if (at_cable || (at_deck && speed > impact_mps))
         return fmin(s->contact_step_s, s->airframe_step_s);
     return at_deck ? 0.5 * s->airframe_step_s : s->airframe_step_s;
+}
+
+static double choose_step(const run* r) {
+    return fmin(wanted_step(r), damped_step(r));
 }
 
 /// Mean wrench of the airframe step on one body.
