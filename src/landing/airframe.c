@@ -158,13 +158,12 @@ static void from_fuselage(const bt_airframe* f, const double point[3], double lo
         local[i] = point[i] - f->fuselage_m[i];
 }
 
-static void add_legs(const bt_aircraft_params* p, bt_airframe* f) {
+static void add_legs(bt_airframe* f) {
     static const char* const strut_names[] = {"nose_strut", "left_strut", "right_strut"};
     static const char* const tyre_names[] = {"nose_tyre", "left_tyre", "right_tyre"};
     static const char* const slide_names[] = {"nose_slide", "left_slide", "right_slide"};
     static const char* const axle_names[] = {"nose_axle", "left_axle", "right_axle"};
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
-        const bt_gear_params* gear = gear_of(p, leg);
         const int piston = BT_BODY_NOSE_PISTON + leg, wheel = BT_BODY_NOSE_WHEEL + leg;
         bt_joint_def slide = {.name = slide_names[leg],
                               .kind = BT_JOINT_PRISMATIC,
@@ -265,7 +264,7 @@ static bt_status assemble(const bt_aircraft_params* p, double gravity_mps2, bt_a
     BT_TRY(add_fuselage(p, parts, f, diag));
     for (int body = 1; body < BT_BODY_COUNT; ++body)
         bt_system_add_body(f->system, &parts[body]);
-    add_legs(p, f);
+    add_legs(f);
     add_hook(p, &damper, f);
 
     lift up = {.force_N = p->lift_ratio * p->mass_kg * gravity_mps2};
