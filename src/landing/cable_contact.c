@@ -65,11 +65,25 @@ static bool cut_segment(const bt_cable_model* model, const bt_cable_state* cable
     return true;
 }
 
+/// Friction on a slice of one segment for one cable step: Coulomb's, but never more than stops the
+/// sliding within the step. A rope is light and a hook presses hard: without this the friction
+/// would turn the sliding over at every step.
+static void rub(const bt_cable_model* model, int segment, double mu_N, double slip_speed_mps,
+                double step_s, const double slide[3], double force[3]) {
+    bt_friction_force(mu_N, slip_speed_mps, slide, force);
+    const double most = bt_norm(slide) / (step_s * model->inverse_slide[segment]);
+    const double size = bt_norm(force);
+    if (size > most)
+        for (int i = 0; i < 3; ++i)
+            force[i] *= most / size;
+}
+
 /// World force of one slice: on the cable the share that the cable bounds; on the wheel its
 /// opposite, and the deck's share less what the bare deck would have given.
-static void apply_slice(bt_wheel_contact* contact, bt_cable_state* cable, int segment,
-                        const slice* piece, const bt_wheel_plane* plane, bt_moving_body* wheel,
-                        double radius_m, double step_s) {
+static void apply_slice(bt_wheel_contact* contact, const bt_cable_model* model,
+                        bt_cable_state* cable, int segment, const slice* piece,
+                        const bt_wheel_plane* plane, bt_moving_body* wheel, double step_s) {
+    const double radius_m = model->radius_m;
     const bt_tyre* tyre = contact->tyre;
     const double offset[3] = {piece->position_m[0] - wheel->now_m[0],
                               piece->position_m[1] - wheel->now_m[1],
@@ -109,7 +123,8 @@ static void apply_slice(bt_wheel_contact* contact, bt_cable_state* cable, int se
     for (int i = 0; i < 3; ++i)
         slide[i] = piece->velocity_mps[i] - wheel->now_mps[i] - slide[i];
     bt_add_scaled(slide, -bt_dot(slide, inward), inward);
-    bt_friction_force(contact->friction * on_rope, contact->slip_speed_mps, slide, friction);
+    rub(model, segment, contact->friction * on_rope, contact->slip_speed_mps, step_s, slide,
+        friction);
 
     for (int i = 0; i < 3; ++i)
         force[i] += friction[i];
@@ -140,7 +155,7 @@ void bt_wheel_contact_apply(bt_wheel_contact* contact, const bt_cable_model* mod
              i += direction) {
             if (!cut_segment(model, cable, i, wheel->now_m, axle, half_width, &piece))
                 break;
-            apply_slice(contact, cable, i, &piece, &plane, wheel, model->radius_m, step_s);
+            apply_slice(contact, model, cable, i, &piece, &plane, wheel, step_s);
         }
 }
 
@@ -165,8 +180,10 @@ static void world_to_head(const bt_hook_contact* contact, const bt_moving_body* 
 }
 
 /// Contact of one slice of rope with the outline.
-static void touch_slice(bt_hook_contact* contact, bt_cable_state* cable, int segment,
-                        const slice* piece, bt_moving_body* hook, double radius_m, double step_s) {
+static void touch_slice(bt_hook_contact* contact, const bt_cable_model* model,
+                        bt_cable_state* cable, int segment, const slice* piece,
+                        bt_moving_body* hook, double step_s) {
+    const double radius_m = model->radius_m;
     double head[2];
     world_to_head(contact, hook, piece->position_m, head);
     const bt_nearest near = bt_profile_nearest(contact->profile, head[0], head[1]);
@@ -193,7 +210,7 @@ static void touch_slice(bt_hook_contact* contact, bt_cable_state* cable, int seg
     double force[3];
     const double load = pressure * piece->length_m;
     bt_add_scaled(slide, -leaving, normal);
-    bt_friction_force(contact->friction * load, contact->slip_speed_mps, slide, force);
+    rub(model, segment, contact->friction * load, contact->slip_speed_mps, step_s, slide, force);
     bt_add_scaled(force, load, normal);
     bt_cable_add_load(cable, segment, force, point);
     const double reaction[3] = {-force[0], -force[1], -force[2]};
@@ -221,7 +238,7 @@ void bt_hook_contact_apply(bt_hook_contact* contact, const bt_cable_model* model
              i += direction) {
             if (!cut_segment(model, cable, i, centre, axis, contact->profile->half_width, &piece))
                 break;
-            touch_slice(contact, cable, i, &piece, hook, model->radius_m, step_s);
+            touch_slice(contact, model, cable, i, &piece, hook, step_s);
         }
 }
 
