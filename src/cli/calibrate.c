@@ -215,6 +215,8 @@ static bt_status calibrate(const bt_command* command, const bt_calibration* c, c
         return BT_ERR_MEMORY;
     bt_status status = bt_calibration_fit(c, fit, &bt_interrupted, show_progress, &progress, &diag);
     const double seconds = bt_now_s() - start_s;
+    if (status == BT_ERR_INTERRUPTED)
+        fprintf(stderr, "calibrate: interrupted after %d steps, nothing was written\n", fit->steps);
     if (status == BT_OK) {
         bt_progress_show(&progress, true, "step %d, cost %.4g", fit->steps, fit->cost);
         status = write_overlay(c, fit, file, &diag);
