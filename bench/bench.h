@@ -17,6 +17,7 @@ void bench_keep(const void* pointer);
 void bench_mechanics(void);
 void bench_cable(void);
 void bench_landing(void);
+void bench_campaign(void);
 void bench_rigs(void);
 void bench_surrogate(void);
 

@@ -11,6 +11,7 @@ static const struct {
     {"mechanics", bench_mechanics},
     {"cable", bench_cable},
     {"landing", bench_landing},
+    {"campaign", bench_campaign},
     {"rigs", bench_rigs},
     {"surrogate", bench_surrogate},
 };
