@@ -20,5 +20,6 @@ void bench_landing(void);
 void bench_campaign(void);
 void bench_rigs(void);
 void bench_surrogate(void);
+void bench_calibration(void);
 
 #endif

@@ -14,6 +14,7 @@ static const struct {
     {"campaign", bench_campaign},
     {"rigs", bench_rigs},
     {"surrogate", bench_surrogate},
+    {"calibration", bench_calibration},
 };
 
 int main(int argc, char** argv) {
