@@ -15,7 +15,8 @@ static char directory[256];
 static int setup(void** state) {
     (void)state;
     const char* temporary = getenv("TMPDIR");
-    snprintf(directory, sizeof directory, "%s/bolter_study_XXXXXX", temporary ? temporary : "/tmp");
+    snprintf(directory, sizeof directory, "%s/bolter_study_XXXXXX",
+             temporary ? temporary : P_tmpdir);
     return mkdtemp(directory) ? 0 : -1;
 }
 

@@ -9,16 +9,18 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-static char folder[64];
+static char folder[256];
 
 static int make_folder(void** state) {
     (void)state;
-    snprintf(folder, sizeof folder, "/tmp/bolter_calibration_XXXXXX");
+    const char* temporary = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%s/bolter_calibration_XXXXXX",
+             temporary ? temporary : P_tmpdir);
     return mkdtemp(folder) ? 0 : -1;
 }
 
 static int remove_folder(void** state) {
-    char path[128];
+    char path[512];
     (void)state;
     static const char* const names[] = {"calibration.yaml", "curve.csv"};
     for (size_t i = 0; i < 2; ++i) {
@@ -29,7 +31,7 @@ static int remove_folder(void** state) {
 }
 
 static void write_file(const char* name, const char* text) {
-    char path[128];
+    char path[512];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE* out = fopen(path, "w");
     assert_non_null(out);
@@ -58,7 +60,7 @@ static void fit_file(const char* path, bt_calibration* c, bt_fit* fit) {
 
 /// The same for a text.
 static void fit_text(const char* text, bt_calibration* c, bt_fit* fit) {
-    char path[128];
+    char path[512];
     write_file("calibration.yaml", text);
     snprintf(path, sizeof path, "%s/calibration.yaml", folder);
     fit_file(path, c, fit);
@@ -286,7 +288,7 @@ static void a_bound_that_is_kept_tells_nothing(void** state) {
 static void assert_refused(const char* text, const char* want) {
     bt_calibration c;
     messages kept;
-    char path[128];
+    char path[512];
     write_file("calibration.yaml", text);
     snprintf(path, sizeof path, "%s/calibration.yaml", folder);
     assert_int_equal(read_against_reference(path, &c, &kept), BT_ERR_INPUT);
@@ -359,7 +361,7 @@ static void a_target_without_a_value_is_named(void** state) {
     bt_calibration c;
     bt_fit fit;
     messages kept;
-    char path[128];
+    char path[512];
     bt_diag diag = {.sink = keep_message, .user = &kept};
     write_file("curve.csv", "time [s], stroke [mm]\n0, 1\n100, 2\n");
     write_file("calibration.yaml",
