@@ -13,7 +13,8 @@ static bt_status fit_key(bt_chain* chain, char* text, size_t size) {
     FILE* out = fmemopen(text, size, "w");
     if (!out)
         return BT_ERR_MEMORY;
-    fprintf(out, "%016" PRIx64 " folds %lld holdout %a C", hash, (long long)p->folds, p->holdout);
+    fprintf(out, "weighted %016" PRIx64 " folds %lld holdout %a C", hash, (long long)p->folds,
+            p->holdout);
     for (int i = 0; i < p->C.count; ++i)
         fprintf(out, " %a", p->C.value[i]);
     fprintf(out, " gamma");
@@ -74,6 +75,10 @@ void bt_surrogate_print(FILE* out, const bt_surrogate* s) {
     else
         fprintf(out, "surrogate     C %g, gamma %g, %d support vectors, %.1f s\n", s->C, s->gamma,
                 s->sv_count, scores->seconds);
+    fprintf(out, "weights      ");
+    for (int k = 0; k < s->dims; ++k)
+        fprintf(out, "%s %s %g", k ? "," : "", s->path[k], s->weight[k]);
+    fprintf(out, "\n");
     fprintf(
         out,
         "hold-out      %.2f %% of %d landings it never saw right, 95 %% interval %.2f .. %.2f %%\n",
@@ -110,6 +115,10 @@ static void write_json(const bt_surrogate* s) {
     bt_json_bool(&json, "constant", s->constant);
     bt_json_number(&json, "C", s->C);
     bt_json_number(&json, "gamma", s->gamma);
+    bt_json_begin_object(&json, "weights");
+    for (int k = 0; k < s->dims; ++k)
+        bt_json_number(&json, s->path[k], s->weight[k]);
+    bt_json_end_object(&json);
     bt_json_number(&json, "seconds", scores->seconds);
     bt_json_end_object(&json);
 }

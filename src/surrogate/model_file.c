@@ -12,7 +12,8 @@
 //   bolter surrogate 1
 //   study HASH
 //   training HASH
-//   inputs N, then per input: input PATH CENTRE SCALE LEAST GREATEST
+//   inputs N, then per input: input PATH CENTRE SCALE LEAST GREATEST WEIGHT
+//   (no WEIGHT in older files: 1)
 //   machine KIND C GAMMA RHO            KIND: svm, constant
 //   scores ... (counts)
 //   seconds S
@@ -92,6 +93,7 @@ static void put_head(writer* w, const bt_surrogate* s) {
         put_real(w, s->scale[k]);
         put_real(w, s->least[k]);
         put_real(w, s->greatest[k]);
+        put_real(w, s->weight[k]);
     }
     put(w, s->constant ? "\nmachine constant" : "\nmachine svm");
     put_real(w, s->C);
@@ -148,8 +150,8 @@ static bool wrong(reader* r, const char* what) {
     return false;
 }
 
-/// Takes a line that must begin with `name` and have `count` more words.
-static bool take_line(reader* r, const char* name, int count) {
+/// Takes a line that must begin with `name` and have `least` to `count` more words.
+static bool take_words(reader* r, const char* name, int least, int count) {
     char text[160];
     char* stop = r->at < r->end ? memchr(r->at, '\n', (size_t)(r->end - r->at)) : NULL;
     ++r->line;
@@ -165,11 +167,16 @@ static bool take_line(reader* r, const char* name, int count) {
          word = strtok_r(NULL, " ", &state))
         r->word[r->count++] = word;
     r->at = stop + 1;
-    if (r->count == count + 1 && !strcmp(r->word[0], name))
+    if (r->count > least && r->count <= count + 1 && !strcmp(r->word[0], name))
         return true;
     snprintf(text, sizeof text, "\"%s\" with %d values should stand here; the file is damaged",
              name, count);
     return wrong(r, text);
+}
+
+/// Takes a line that must begin with `name` and have `count` more words.
+static bool take_line(reader* r, const char* name, int count) {
+    return take_words(r, name, count, count);
 }
 
 static int hex_digit(char c) {
@@ -266,7 +273,7 @@ static bool take_inputs(reader* r, bt_surrogate* s) {
     if (s->dims < 1)
         return wrong(r, "a surrogate has at least one input; the file is damaged");
     for (int k = 0; k < s->dims; ++k) {
-        if (!take_line(r, "input", 5))
+        if (!take_words(r, "input", 5, 6))
             return false;
         if (strlen(r->word[1]) >= BT_PATH_MAX)
             return wrong(r, "the name of an input is too long; the file is damaged");
@@ -274,6 +281,9 @@ static bool take_inputs(reader* r, bt_surrogate* s) {
             memcpy(s->path[k], r->word[1], strlen(r->word[1]) + 1);
         if (!take_real(r, r->word[2], &s->centre[k]) || !take_real(r, r->word[3], &s->scale[k]) ||
             !take_real(r, r->word[4], &s->least[k]) || !take_real(r, r->word[5], &s->greatest[k]))
+            return false;
+        s->weight[k] = 1;
+        if (r->count > 6 && !take_real(r, r->word[6], &s->weight[k]))
             return false;
         if (!(s->scale[k] > 0))
             return wrong(r, "the scale of an input is not positive; the file is damaged");

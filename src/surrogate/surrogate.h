@@ -5,8 +5,8 @@
 ///
 /// label +1 (engaged) when f > 0, -1 (missed) otherwise; coef_i = y_i alpha_i, 0 < alpha_i <= C.
 /// When the landings it learnt from were all of one kind it is constant: no support vectors, and f
-/// is that label. Differs from the paper: inputs are standardised, and the score is measured on
-/// landings that were kept out of training.
+/// is that label. Differs from the paper: inputs are standardised and weighted, and the score is
+/// measured on landings that were kept out of training.
 #ifndef BT_SURROGATE_SURROGATE_H
 #define BT_SURROGATE_SURROGATE_H
 
@@ -46,7 +46,8 @@ typedef struct bt_surrogate_scores {
 typedef struct bt_surrogate {
     int dims;
     char path[BT_INPUT_MAX][BT_PATH_MAX]; ///< what each input is ("landing.pitch"); may be empty
-    double centre[BT_INPUT_MAX], scale[BT_INPUT_MAX];   ///< standardisation, SI
+    double centre[BT_INPUT_MAX], scale[BT_INPUT_MAX]; ///< standardisation, SI
+    double weight[BT_INPUT_MAX]; ///< relevance, in the scale already: deviation / scale
     double least[BT_INPUT_MAX], greatest[BT_INPUT_MAX]; ///< box of the training landings, SI
     bool constant;                                      ///< all landings were of one kind
     double C, gamma, rho;
@@ -65,8 +66,9 @@ typedef struct bt_grid {
 } bt_grid;
 
 /// Trains a surrogate: keeps the hold-out share apart (by keyed random numbers, in each class
-/// alike), standardises, chooses (C, gamma) by k-fold cross-validation over the grid, trains on
-/// everything but the hold-out, and scores. The same bits for any number of threads.
+/// alike), standardises, weighs the inputs (relevance.h), chooses (C, gamma) by k-fold
+/// cross-validation over the grid, trains on everything but the hold-out, and scores. The same bits
+/// for any number of threads.
 ///
 /// The grid is tried in up to three rounds: every cell on about 2,000 landings, the best third of
 /// them on about 6,000, the best three on about 16,000. Along a row of constant gamma C rises, and

@@ -1,4 +1,5 @@
 #include "surrogate/predictor.h"
+#include "surrogate/relevance.h"
 #include "surrogate/tasks.h"
 
 #include "base/rng.h"
@@ -21,6 +22,9 @@ static const int round_size[ROUNDS] = {2000, 6000, 16000};
 // standard error and saves nine tenths of the time at large C.
 static const double compare_tolerance = 0.1, final_tolerance = 1e-3;
 
+// Where the weights of the inputs are compared: a penalty and a width from the middle of the grid.
+static const double probe_C = 100, probe_gamma = 0.3;
+
 static const double default_C[] = {1, 10, 100, 1e3, 1e4, 1e5};
 static const double default_gamma[] = {0.1, 0.3, 1, 3, 10};
 
@@ -36,7 +40,8 @@ typedef struct trainer {
     int* holdout;
     int holdout_count;
     bt_grid* grid;
-    int rows, columns; ///< gammas, Cs
+    int rows, columns;  ///< gammas, Cs
+    bt_grid_cell probe; ///< where the weights of the inputs are compared
     // of the round
     int cell[BT_GRID_MAX], cells, share[2]; ///< cells to try, landings of each class
     int* correct;                           ///< [cells * folds]
@@ -94,8 +99,8 @@ static bt_status split(trainer* t, uint64_t seed) {
     return BT_OK;
 }
 
-/// Centre, scale and box of the training landings; z of all.
-static void standardise(trainer* t, bt_surrogate* out) {
+/// Centre, scale and box of the training landings.
+static void measure(const trainer* t, bt_surrogate* out) {
     const bt_training_set* set = t->set;
     const int n = t->train[0] + t->train[1], dims = t->dims;
     for (int k = 0; k < dims; ++k) {
@@ -115,9 +120,16 @@ static void standardise(trainer* t, bt_surrogate* out) {
         out->centre[k] = centre;
         // An input that never varied says nothing; it must not be blown up.
         out->scale[k] = greatest > least && deviation > 0 ? deviation : 1;
+        out->weight[k] = 1;
         out->least[k] = least;
         out->greatest[k] = greatest;
     }
+}
+
+/// z of every landing.
+static void standardise(trainer* t, const bt_surrogate* out) {
+    const bt_training_set* set = t->set;
+    const int dims = t->dims;
     for (int i = 0; i < set->count; ++i) {
         struct svm_node* node = t->nodes + (size_t)i * (size_t)(dims + 1);
         for (int k = 0; k < dims; ++k) {
@@ -371,6 +383,74 @@ static void choose_cell(trainer* t) {
     }
 }
 
+/* ---- the weights of the inputs ---- */
+
+/// Copies the landings of the round, weighted, into nodes and z.
+static void weigh(const trainer* t, const double* weight, struct svm_node* nodes, double* z) {
+    const size_t dims = (size_t)t->dims;
+    for (int class = 0; class < 2; ++class)
+        for (int i = 0; i < t->share[class]; ++i) {
+            const size_t index = (size_t)t->list[(class ? t->train[0] : 0) + i];
+            struct svm_node* node = nodes + index * (dims + 1);
+            for (size_t k = 0; k < dims; ++k) {
+                z[index * dims + k] = weight[k] * t->z[index * dims + k];
+                node[k] = (struct svm_node){(int)k + 1, z[index * dims + k]};
+            }
+            node[dims].index = -1;
+        }
+}
+
+static bt_status try_weights(void* user, const double* weight, int fold, int* correct) {
+    trainer own = *(const trainer*)user;
+    const size_t n = (size_t)own.set->count, dims = (size_t)own.dims;
+    struct svm_node* nodes = malloc(n * (dims + 1) * sizeof *nodes);
+    double* z = malloc(n * dims * sizeof *z);
+    bt_status status = BT_ERR_MEMORY;
+    if (nodes && z) {
+        weigh(&own, weight, nodes, z);
+        own.nodes = nodes;
+        own.z = z;
+        status = run_fold(&own, &own.probe, fold, correct);
+    }
+    free(nodes);
+    free(z);
+    return status;
+}
+
+/// The gamma of the grid that is nearest to the probe's, by ratio.
+static double probe_gamma_of(const trainer* t) {
+    double nearest = t->grid->cell[0].gamma;
+    for (int row = 1; row < t->rows; ++row) {
+        const double gamma = t->grid->cell[row * t->columns].gamma;
+        if (fabs(log(gamma / probe_gamma)) < fabs(log(nearest / probe_gamma)))
+            nearest = gamma;
+    }
+    return nearest;
+}
+
+/// Chooses the weights and puts them into the scale.
+static bt_status choose_weights(trainer* t, bt_surrogate* out) {
+    bool varies[BT_INPUT_MAX];
+    for (int k = 0; k < t->dims; ++k)
+        varies[k] = out->greatest[k] > out->least[k];
+    size_round(t, round_size[0]);
+    t->probe = (bt_grid_cell){.C = probe_C, .gamma = probe_gamma_of(t)};
+    const bt_relevance relevance = {.dims = t->dims,
+                                    .folds = (int)t->params->folds,
+                                    .count = t->share[0] + t->share[1],
+                                    .varies = varies,
+                                    .threads = t->threads,
+                                    .trial = try_weights,
+                                    .user = t};
+    BT_TRY(bt_relevance_search(&relevance, out->weight));
+    for (int k = 0; k < t->dims; ++k)
+        out->scale[k] /= out->weight[k];
+    t->share[0] = t->share[1] = 0;
+    return BT_OK;
+}
+
+/* ---- the choice ---- */
+
 static bt_status select_model(trainer* t) {
     size_round(t, round_size[0]);
     if (t->grid->count > 1) {
@@ -466,13 +546,17 @@ static bt_status score(const trainer* t, bt_surrogate* out) {
 
 static bt_status train_split(trainer* t, bt_surrogate* out, bt_diag* diag) {
     lay_grid(t);
+    measure(t, out);
     standardise(t, out);
-    if (t->train[0] && t->train[1])
+    if (t->train[0] && t->train[1]) {
+        BT_TRY(choose_weights(t, out));
+        standardise(t, out);
         BT_TRY(select_model(t));
-    else
+    } else {
         bt_diag_add(diag, BT_WARNING, BT_NOWHERE,
                     "all %d landings were %s; the surrogate is constant and knows no boundary",
                     t->set->count, t->train[0] ? "engaged" : "missed");
+    }
     const bt_grid_cell* best = &t->grid->cell[t->grid->best];
     BT_TRY(
         fit_one(t, t->list, t->train[0] + t->train[1], best->C, best->gamma, final_tolerance, out));
