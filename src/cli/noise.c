@@ -26,6 +26,22 @@ static bool listed(const char* list, const char* name) {
     return !list;
 }
 
+/// Whether every name of a list is that of a variant; the first that is not is reported.
+static bool all_known(const bt_command* command, const char* list) {
+    for (const char* at = list; at && *at; at += strcspn(at, ",") + (at[strcspn(at, ",")] == ',')) {
+        const int length = (int)strcspn(at, ",");
+        const bt_noise_variant* variant = bt_noise_variants;
+        while (variant->name && ((int)strlen(variant->name) != length ||
+                                 strncmp(variant->name, at, (size_t)length) != 0))
+            ++variant;
+        if (!variant->name) {
+            bt_usage_error(command, "--variants: there is no \"%.*s\"", length, at);
+            return false;
+        }
+    }
+    return true;
+}
+
 /// One run and its row; the first has no variant.
 static void print_row(noise* n, const bt_noise_variant* variant, const bt_noise_difference* d) {
     const bt_interval flips = bt_clopper_pearson(d->flips, n->count, 0.95);
@@ -118,21 +134,23 @@ static bt_status run_all(noise* n) {
     if (!n->base || !n->other)
         return BT_ERR_MEMORY;
     print_head(n);
-    BT_TRY(run_variant(n, NULL, &diag));
-    for (const bt_noise_variant* variant = bt_noise_variants; variant->name; ++variant)
-        if (listed(n->command->option[OPTION_VARIANTS], variant->name))
-            BT_TRY(run_variant(n, variant, &diag));
+    bt_status status = run_variant(n, NULL, &diag);
+    for (const bt_noise_variant* v = bt_noise_variants; v->name && status == BT_OK; ++v)
+        if (listed(n->command->option[OPTION_VARIANTS], v->name))
+            status = run_variant(n, v, &diag);
     if (n->command->json) {
         bt_json_end_array(&n->json);
         bt_json_end_object(&n->json);
     }
-    return BT_OK;
+    return status;
 }
 
 static bt_status run(const bt_command* command) {
     noise n = {.command = command, .count = 2000};
     const char* samples = command->option[OPTION_SAMPLES];
     if (samples && !bt_whole_number(command, "--samples", samples, 1, &n.count))
+        return BT_ERR_ARG;
+    if (!all_known(command, command->option[OPTION_VARIANTS]))
         return BT_ERR_ARG;
     if (n.count > 1000000)
         return bt_usage_error(command, "--samples: at most 1000000");
