@@ -37,7 +37,7 @@ BT_DECLARE_GROUP(hook_profile, BT_HOOK_PROFILE_FIELDS)
     F(REAL, stiffness, Npm2, OPTIONAL, 5e8, 1e6, 1e12, "", "contact stiffness per metre of cable [assumed]") \
     F(PLAIN, damping_ratio, _, OPTIONAL, 0.2, 0, 2, "", "contact damping of critical, cable against a fixed hook [assumed]") \
     F(PLAIN, friction, _, OPTIONAL, 0.2, 0, 2, "", "Coulomb friction, rope on steel") \
-    F(REAL, slip_speed, mps, OPTIONAL, 0.2, 1e-4, 10, "", "speed at which friction is fully developed [assumed]")
+    F(REAL, slip_speed, mps, OPTIONAL, 1.0, 1e-4, 10, "", "sliding speed at which friction is fully developed, also of the tyres on the cable; a smaller one makes outcomes hang on the step [assumed]")
 BT_DECLARE_GROUP(hook_cable, BT_HOOK_CABLE_FIELDS)
 
 #define BT_HOOK_FIELDS(F)                                                                          \
