@@ -109,10 +109,23 @@ static void print_head(noise* n) {
         bt_json_begin_array(&n->json, "runs");
         return;
     }
-    printf("%lld landings of \"%s\", seed %lld. Shares with 95 %% Clopper-Pearson bounds.\n\n"
-           "| computation | outcomes changed | margin moved: 50, 90, 99 %%, mm | margin on the "
-           "wrong side | failed | ms per landing |\n| --- | --- | --- | --- | --- | --- |\n",
-           (long long)n->count, n->study.title, (long long)n->study.campaign.seed);
+    const bt_model_params* model = &n->study.model;
+    const bt_cable_mesh_params* mesh = &model->deck.cable.mesh;
+    const bt_solver_params* solver = &model->landing.solver;
+    printf(
+        "# Label noise\n\n"
+        "%lld landings of \"%s\", drawn from its distributions with seed %lld. Written by "
+        "`bolter noise`.\n\n"
+        "As the study sets it: segments %g, %g and %g m, airframe steps %g and %g us, cable step "
+        "%g of the stable one, %lld strips, hook on cable slip_speed %g m/s.\n"
+        "Shares with 95 %% Clopper-Pearson bounds. Constraints are projected to rounding at "
+        "every step: there is no setting of that to vary.\n\n"
+        "| computation | outcomes changed | margin moved: 50, 90, 99 %%, mm | margin on the "
+        "wrong side | failed | ms per landing |\n| --- | --- | --- | --- | --- | --- |\n",
+        (long long)n->count, n->study.title, (long long)n->study.campaign.seed, mesh->fine_length_m,
+        mesh->medium_length_m, mesh->coarse_length_m, 1e6 * solver->airframe_step_s,
+        1e6 * solver->contact_step_s, solver->cable_courant, (long long)solver->tyre_strips,
+        model->aircraft.hook.cable_contact.slip_speed_mps);
 }
 
 static bt_status run_variant(noise* n, const bt_noise_variant* variant, bt_diag* diag) {
