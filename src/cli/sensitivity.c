@@ -47,8 +47,8 @@ static const char* const default_keys[] = {
 /// One key: the landings with it lowered and raised, against those as the study sets it.
 typedef struct effect {
     char path[BT_PATH_MAX], value[64];
-    bool refused;
-    double engaged[2];  ///< share, key lowered and raised
+    bool refused[2];    ///< the model cannot be run with the key lowered, raised
+    double engaged[2];  ///< share, key lowered and raised; NAN where refused
     double margin_m[2]; ///< mean move of the margin
     int64_t flips;      ///< of both together
 } effect;
@@ -95,8 +95,9 @@ static bt_status measure(table* t, effect* e, bt_diag* diag) {
         const double factor = side == 0 ? 1 - t->change : 1 + t->change;
         const bt_noise_variant variant = {.changes = {{e->path, factor}}};
         if (!acceptable(&t->study, e->path, factor)) {
-            e->refused = true;
-            return BT_OK;
+            e->refused[side] = true;
+            e->engaged[side] = e->margin_m[side] = NAN;
+            continue;
         }
         BT_TRY(bt_noise_run(&t->study, &variant, t->count, (int)t->study.campaign.threads,
                             &bt_interrupted, t->other, diag));
@@ -125,8 +126,8 @@ static bool add_key(table* t, const char* path, size_t length) {
                              "--keys: \"%s\" is no number of the model; see bolter keys", e->path);
         return false;
     }
-    bt_unit_print(bt_field_get(field, &t->study.model, offset), field->unit[0] ? field->unit : "1",
-                  e->value, sizeof e->value);
+    snprintf(e->value, sizeof e->value, "%.4g %s", bt_field_get(field, &t->study.model, offset),
+             field->unit[0] ? bt_unit_text(field->unit) : "");
     ++t->effect_count;
     return true;
 }
@@ -160,8 +161,12 @@ static bool add_keys(table* t, const char* list) {
     return true;
 }
 
+/// How far the key moves the share engaged, and then how many outcomes it changes.
 static double strength(const effect* e) {
-    return e->refused ? -1 : fabs(e->engaged[1] - e->engaged[0]) + 1e-3 * (double)e->flips;
+    double shift = 0;
+    if (!e->refused[0] && !e->refused[1])
+        shift = fabs(e->engaged[1] - e->engaged[0]);
+    return shift + 1e-3 * (double)e->flips;
 }
 
 static int strongest_first(const void* a, const void* b) {
@@ -180,10 +185,10 @@ static void print_json(const table* t, double base) {
         const effect* e = &t->effects[i];
         bt_json_begin_object(&json, NULL);
         bt_json_string(&json, "path", e->path);
-        bt_json_number(&json, "engaged_lower", e->refused ? NAN : e->engaged[0]);
-        bt_json_number(&json, "engaged_higher", e->refused ? NAN : e->engaged[1]);
-        bt_json_number(&json, "margin_lower_m", e->refused ? NAN : e->margin_m[0]);
-        bt_json_number(&json, "margin_higher_m", e->refused ? NAN : e->margin_m[1]);
+        bt_json_number(&json, "engaged_lower", e->engaged[0]);
+        bt_json_number(&json, "engaged_higher", e->engaged[1]);
+        bt_json_number(&json, "margin_lower_m", e->margin_m[0]);
+        bt_json_number(&json, "margin_higher_m", e->margin_m[1]);
         bt_json_integer(&json, "flips", e->flips);
         bt_json_end_object(&json);
     }
@@ -202,13 +207,14 @@ static void print_table(const table* t, double base) {
         percent);
     for (int i = 0; i < t->effect_count; ++i) {
         const effect* e = &t->effects[i];
-        if (e->refused) {
-            printf("| %s | %s | refused | refused | - | - | - |\n", e->path, e->value);
-            continue;
+        char engaged[2][32], moved[2][32];
+        for (int side = 0; side < 2; ++side) {
+            snprintf(engaged[side], sizeof engaged[side], "%.2f %%", 100 * e->engaged[side]);
+            snprintf(moved[side], sizeof moved[side], "%+.2f", 1e3 * e->margin_m[side]);
         }
-        printf("| %s | %s | %.2f %% | %.2f %% | %+.2f | %+.2f | %lld |\n", e->path, e->value,
-               100 * e->engaged[0], 100 * e->engaged[1], 1e3 * e->margin_m[0], 1e3 * e->margin_m[1],
-               (long long)e->flips);
+        printf("| %s | %s | %s | %s | %s | %s | %lld |\n", e->path, e->value,
+               e->refused[0] ? "refused" : engaged[0], e->refused[1] ? "refused" : engaged[1],
+               e->refused[0] ? "-" : moved[0], e->refused[1] ? "-" : moved[1], (long long)e->flips);
     }
 }
 
