@@ -7,6 +7,39 @@
 
 #include <stdio.h>
 
+/// Settings at which the label-noise study (docs/label-noise.md) has shown that outcomes do not
+/// hang on the computation: the defaults of these keys. Coarser ones have not been shown to be
+/// good.
+static void warn_of_settings(const bt_model_params* model, bt_diag* diag) {
+    static const struct {
+        const char* path;
+        bool at_least; ///< the default is the least that was shown; otherwise the greatest
+    } shown[] = {
+        {"landing.solver.airframe_step", false},
+        {"landing.solver.contact_step", false},
+        {"landing.solver.cable_courant", false},
+        {"landing.solver.tyre_strips", true},
+        {"deck.cable.mesh.fine_length", false},
+        {"deck.cable.mesh.medium_length", false},
+        {"deck.cable.mesh.coarse_length", false},
+        {"deck.cable.mesh.fine_half_width", true},
+        {"deck.cable.mesh.medium_half_width", true},
+        {"aircraft.hook.cable_contact.slip_speed", true},
+    };
+    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; ++i) {
+        size_t offset;
+        const bt_field* field = bt_group_find(&bt_model_group, shown[i].path, &offset);
+        const double value = bt_field_get(field, model, offset);
+        if (shown[i].at_least ? value >= field->fallback : value <= field->fallback)
+            continue;
+        bt_diag_add(diag, BT_WARNING, BT_NOWHERE,
+                    "%s: %.4g %s is %s than what the label-noise study has shown to be good, %.4g; "
+                    "`bolter noise` shows it for this study",
+                    shown[i].path, value, field->unit[0] ? bt_unit_text(field->unit) : "",
+                    shown[i].at_least ? "less" : "more", field->fallback);
+    }
+}
+
 /// What is allowed but seldom meant: each line is a warning on stderr.
 static void warn(const bt_study* study, const bt_stable_step* steps, int step_count,
                  bt_diag* diag) {
@@ -16,6 +49,7 @@ static void warn(const bt_study* study, const bt_stable_step* steps, int step_co
                         "%s: %.3g us is above the stable step of %s, %.3g us: landings may diverge",
                         steps[i].setting, 1e6 * steps[i].used_s, steps[i].element,
                         1e6 * steps[i].stable_s);
+    warn_of_settings(&study->model, diag);
     for (int i = 0; i < study->input_count; ++i) {
         const bt_input* input = &study->inputs[i];
         if (study->campaign.design == BT_DESIGN_MONTE_CARLO || !input->random)

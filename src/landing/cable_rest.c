@@ -228,6 +228,29 @@ static double settle(const bt_cable_model* model, bt_cable_state* s, row* rows,
     return left;
 }
 
+/// Supports below the line between the anchors are out of Newton's sight: the rope starts clear of
+/// them. They begin at that line and are lowered a little at a time, so that they always carry.
+static double settle_onto_supports(const bt_cable_model* model, bt_cable_state* s, row* rows,
+                                   bt_cable_state* keep) {
+    static const double lower_by_m = 2e-3;
+    const bt_cable_def* d = &model->def;
+    const double line_m =
+        fmin(s->scalars->anchor_m[0][2], s->scalars->anchor_m[1][2]) - model->radius_m;
+    const double drop_m = line_m - d->support.height_m;
+    if (d->support_y_m.count == 0 || drop_m <= 0)
+        return settle(model, s, rows, keep);
+    bt_cable_model raised = *model;
+    const int stages = (int)ceil(drop_m / lower_by_m);
+    double left = INFINITY;
+    for (int k = 1; k <= stages; ++k) {
+        raised.def.support.height_m = line_m - drop_m * k / stages;
+        left = settle(&raised, s, rows, keep);
+        if (!isfinite(left))
+            break;
+    }
+    return left;
+}
+
 static bool hangs_clear(const bt_cable_model* model, const bt_cable_state* s, bt_diag* diag) {
     const bt_cable_def* d = &model->def;
     for (int k = 0; k < d->support_y_m.count; ++k) {
@@ -284,7 +307,7 @@ bt_status bt_cable_equilibrium(const bt_cable_model* model, bt_cable_state* stat
         goto done;
     memset(state->vx, 0, 9 * (size_t)model->stride * sizeof(double)); /* v, h, w */
     state->scalars->last_step_s = 0;
-    double left = settle(model, state, rows, &keep);
+    double left = settle_onto_supports(model, state, rows, &keep);
     bool full = true;
     for (int k = 0; k < ANCHOR_MAX && left < 1e-3 && full; ++k) {
         if (tune_anchors(model, state) < 1e-12)
