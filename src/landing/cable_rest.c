@@ -228,27 +228,24 @@ static double settle(const bt_cable_model* model, bt_cable_state* s, row* rows,
     return left;
 }
 
-/// Supports below the line between the anchors are out of Newton's sight: the rope starts clear of
-/// them. They begin at that line and are lowered a little at a time, so that they always carry.
+/// Supports near or below the line between the anchors are out of Newton's sight: the rope starts
+/// clear of them. They begin above that line and are lowered a little at a time, so that they
+/// always carry.
 static double settle_onto_supports(const bt_cable_model* model, bt_cable_state* s, row* rows,
                                    bt_cable_state* keep) {
-    static const double lower_by_m = 2e-3;
+    static const double above_m = 0.02, lower_by_m = 4e-3;
     const bt_cable_def* d = &model->def;
     const double line_m =
         fmin(s->scalars->anchor_m[0][2], s->scalars->anchor_m[1][2]) - model->radius_m;
-    const double drop_m = line_m - d->support.height_m;
-    if (d->support_y_m.count == 0 || drop_m <= 0)
-        return settle(model, s, rows, keep);
+    const double begin_m = fmax(line_m + above_m, d->support.height_m);
+    const int stages = (int)ceil((begin_m - d->support.height_m) / lower_by_m);
     bt_cable_model raised = *model;
-    const int stages = (int)ceil(drop_m / lower_by_m);
-    double left = INFINITY;
-    for (int k = 1; k <= stages; ++k) {
-        raised.def.support.height_m = line_m - drop_m * k / stages;
+    double left = 0;
+    for (int k = 0; k < stages && isfinite(left) && d->support_y_m.count > 0; ++k) {
+        raised.def.support.height_m = begin_m - (begin_m - d->support.height_m) * k / stages;
         left = settle(&raised, s, rows, keep);
-        if (!isfinite(left))
-            break;
     }
-    return left;
+    return settle(model, s, rows, keep);
 }
 
 static bool hangs_clear(const bt_cable_model* model, const bt_cable_state* s, bt_diag* diag) {

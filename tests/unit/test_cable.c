@@ -315,6 +315,24 @@ static void equilibrium_says_when_the_cable_hangs_clear_of_a_support(void** stat
     bt_arena_destroy(&r.arena);
 }
 
+static void supports_below_the_sheaves_still_carry_the_cable(void** state) {
+    (void)state;
+    bt_cable_params p = defaults();
+    for (double height = 0.060; height < 0.104; height += 0.007) {
+        p.supports.height_m = height;
+        rod r;
+        cable_open(&r, &p);
+        /* the two inner supports carry about 9 m of cable each: half of 12 m and half of 6 m */
+        for (int k = 0; k < r.model.def.support_y_m.count; ++k) {
+            const double force = r.state.scalars->support_force_N[k];
+            assert_true(force > 0);
+            if (fabs(fabs(r.model.def.support_y_m.value[k]) - p.supports.first_m) < 1e-9)
+                BT_ASSERT_NEAR(force, 9 * p.mass_kgpm * G, 0.2, 0);
+        }
+        bt_arena_destroy(&r.arena);
+    }
+}
+
 static void non_finite_state_is_noticed(void** state) {
     (void)state;
     const bt_cable_params p = defaults();
@@ -344,6 +362,7 @@ int main(void) {
         cmocka_unit_test(support_force_does_not_jump_when_the_cable_slides),
         cmocka_unit_test(centreline_is_continuous_and_segment_at_finds_the_piece),
         cmocka_unit_test(equilibrium_says_when_the_cable_hangs_clear_of_a_support),
+        cmocka_unit_test(supports_below_the_sheaves_still_carry_the_cable),
         cmocka_unit_test(non_finite_state_is_noticed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
