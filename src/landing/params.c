@@ -60,9 +60,17 @@ static void check_model(const void* params, const char* path, bt_diag* diag) {
     if (!diag)
         return;
     snprintf(place, sizeof place, "%s%saircraft.hook.profile", path, *path ? "." : "");
-    if (bt_profile_build(&hook->profile, hook->length_m, 0.5 * model->deck.cable.diameter_m, place,
-                         &profile, diag) != BT_OK)
-        return;
+    // its errors are in diag; the outline itself is not wanted here
+    (void)!bt_profile_build(&hook->profile, hook->length_m, 0.5 * model->deck.cable.diameter_m,
+                            place, &profile, diag);
+
+    const bt_gear_params* gear = &model->aircraft.main_gear;
+    const double track_m = 2 * gear->half_track_m + gear->tyre.width_m * (double)gear->tyre.tyres;
+    if (model->deck.cable.span_m <= track_m)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s%sdeck.cable.span: %g m is less than the main wheels' track; more than %g m "
+                    "would do",
+                    path, *path ? "." : "", model->deck.cable.span_m, track_m);
 }
 
 #define ROW(kind, name, ...) BT_ROW_##kind(bt_model_params, name, __VA_ARGS__)
