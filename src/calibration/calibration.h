@@ -37,12 +37,15 @@ typedef struct bt_override {
     double value;  ///< SI
 } bt_override;
 
-/// In the order of bt_specimen_part.
+/// A landing, then the rigs in the order of bt_rig_kind.
 typedef enum bt_experiment_kind {
     BT_EXPERIMENT_LANDING,
     BT_EXPERIMENT_NOSE_DROP,
     BT_EXPERIMENT_MAIN_DROP,
     BT_EXPERIMENT_HOOK_REBOUND,
+    BT_EXPERIMENT_NOSE_STATIC,
+    BT_EXPERIMENT_MAIN_STATIC,
+    BT_EXPERIMENT_KINDS,
 } bt_experiment_kind;
 
 /// One run of the model. Targets that ask the same run share it.

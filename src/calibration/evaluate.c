@@ -73,7 +73,7 @@ static bt_status run_one(shared* s, int run, bt_lander* lander, bt_specimen* spe
     const int count =
         find_curves(c, index, s->rows + (size_t)point * (size_t)c->row_count, followed);
     prepare(c, s->u + (size_t)point * (size_t)c->parameter_count, experiment, specimen);
-    if (bt_specimen_check(specimen, (bt_specimen_part)experiment->kind, diag) == BT_OK)
+    if (bt_specimen_check(specimen, bt_experiment_part(experiment->kind), diag) == BT_OK)
         return bt_experiment_run(lander, experiment->kind, specimen, metric, followed, count, diag);
     // parameters that do not go together: no value, like a run that diverged
     bt_experiment_void(metric, followed, count);

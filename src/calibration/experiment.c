@@ -28,7 +28,12 @@ static const bt_metric_name landing_metrics[] = {
 static const bt_metric_name drop_metrics[] = {
     {"stroke_max", "m"},     {"sinkage_max", "m"},     {"tyre_compression_max", "m"},
     {"tyre_force_max", "N"}, {"strut_force_max", "N"}, {"drag_force_max", "N"},
-    {"efficiency", "1"},     {"spin_up_time", "s"},    {NULL, NULL},
+    {"efficiency", "1"},     {"spin_up_time", "s"},    {"strut_energy", "J"},
+    {"tyre_energy", "J"},    {"tyre_efficiency", "1"}, {NULL, NULL},
+};
+static const bt_metric_name static_metrics[] = {
+    {"load_extended", "N"}, {"load_compressed", "N"}, {"energy", "J"}, {"hysteresis", "J"},
+    {NULL, NULL},
 };
 static const bt_metric_name rebound_metrics[] = {
     {"rebound_height", "m"},    {"bounce_distance", "m"}, {"impact_force", "N"},
@@ -36,14 +41,23 @@ static const bt_metric_name rebound_metrics[] = {
 };
 
 const bt_metric_name* bt_experiment_metrics(bt_experiment_kind kind) {
-    return kind == BT_EXPERIMENT_LANDING        ? landing_metrics
-           : kind == BT_EXPERIMENT_HOOK_REBOUND ? rebound_metrics
-                                                : drop_metrics;
+    static const bt_metric_name* const metrics[BT_EXPERIMENT_KINDS] = {
+        landing_metrics, drop_metrics,   drop_metrics,
+        rebound_metrics, static_metrics, static_metrics};
+    return metrics[kind];
 }
 
 const char* bt_experiment_prefix(bt_experiment_kind kind) {
-    static const char* const prefixes[] = {"", "nose_drop.", "main_drop.", "hook_rebound."};
+    static const char* const prefixes[] = {
+        "", "nose_drop.", "main_drop.", "hook_rebound.", "nose_static.", "main_static."};
     return prefixes[kind];
+}
+
+bt_specimen_part bt_experiment_part(bt_experiment_kind kind) {
+    static const bt_specimen_part parts[BT_EXPERIMENT_KINDS] = {
+        BT_PART_LANDING, BT_PART_NOSE_GEAR, BT_PART_MAIN_GEAR,
+        BT_PART_HOOK,    BT_PART_NOSE_GEAR, BT_PART_MAIN_GEAR};
+    return parts[kind];
 }
 
 /// In the order of landing_metrics.

@@ -17,8 +17,12 @@ typedef struct bt_metric_name {
 /// what the cable did (margin, throat_force_peak, cable_tension_max).
 const bt_metric_name* bt_experiment_metrics(bt_experiment_kind kind);
 
-/// "", "nose_drop.", "main_drop.", "hook_rebound.": what stands before a metric's name.
+/// "", "nose_drop.", "main_drop.", "hook_rebound.", "nose_static.", "main_static.": what stands
+/// before a metric's name.
 const char* bt_experiment_prefix(bt_experiment_kind kind);
+
+/// What an experiment is run on.
+bt_specimen_part bt_experiment_part(bt_experiment_kind kind);
 
 /// A measured curve to follow and where its model values go.
 typedef struct bt_followed {

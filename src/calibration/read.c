@@ -209,9 +209,9 @@ static bool find_metric(reading* r, const bt_node* node, const char* path, bt_ta
                         bt_experiment_kind* kind) {
     const char* best = NULL;
     int distance = INT_MAX;
-    char names[BT_EXPERIMENT_METRIC_MAX * 4][64], help[160];
+    char names[BT_EXPERIMENT_METRIC_MAX * BT_EXPERIMENT_KINDS][64], help[160];
     int count = 0;
-    for (int k = BT_EXPERIMENT_LANDING; k <= BT_EXPERIMENT_HOOK_REBOUND; ++k) {
+    for (int k = BT_EXPERIMENT_LANDING; k < BT_EXPERIMENT_KINDS; ++k) {
         const bt_metric_name* metrics = bt_experiment_metrics((bt_experiment_kind)k);
         for (int i = 0; metrics[i].name; ++i) {
             char* name = names[count++];
@@ -341,10 +341,11 @@ static void read_curve(reading* r, bt_target* t, const bt_node* file, const bt_e
                         bt_status_text(status));
 }
 
-/// `curve: FILE.csv` with `of`: landing, nose_drop, main_drop or hook_rebound.
+/// `curve: FILE.csv` with `of`: landing or one of the rigs.
 static void read_curve_target(reading* r, bt_target* t, const bt_node* node, const bt_node* file,
                               bt_experiment* e, const char* path) {
-    static const char* const kinds[] = {"landing", "nose_drop", "main_drop", "hook_rebound", NULL};
+    static const char* const kinds[] = {"landing",     "nose_drop",   "main_drop", "hook_rebound",
+                                        "nose_static", "main_static", NULL};
     char place[PLACE_SIZE];
     const bt_node* of = bt_node_child(node, "of");
     const bt_node* tolerance = bt_node_child(node, "tolerance");

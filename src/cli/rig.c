@@ -46,16 +46,17 @@ static bt_status write_files(const bt_command* command, const bt_study* study,
 
 static void print(const bt_command* command, const bt_study* study, const bt_rig_record* record,
                   const bt_rig_result* result, const bt_rig_curves* curves) {
+    const double tolerance = bt_rig_point_tolerance(record->kind, &study->rigs);
     if (command->json) {
         bt_json json = {.out = stdout};
         bt_json_begin_object(&json, NULL);
         bt_json_string(&json, "rig", bt_rig_keys[record->kind]);
         bt_json_string(&json, "title", study->title);
-        bt_rig_write_json(&json, result, record, curves);
+        bt_rig_write_json(&json, result, record, curves, tolerance);
         bt_json_end_object(&json);
     } else if (!command->quiet) {
         printf("%s: %s\n", bt_rig_keys[record->kind], study->title);
-        bt_rig_print(stdout, result, record, curves);
+        bt_rig_print(stdout, result, record, curves, tolerance);
     }
 }
 
@@ -93,7 +94,9 @@ static bt_status test(const bt_command* command, const bt_study* study, bt_rig_k
 static bt_status run(const bt_command* typed) {
     bt_rig_kind kind;
     if (!find_kind(typed->words[0], &kind))
-        return bt_usage_error(typed, "\"%s\" is none of nose-drop, main-drop, hook-rebound",
+        return bt_usage_error(typed,
+                              "\"%s\" is none of nose-drop, main-drop, hook-rebound, nose-static, "
+                              "main-static",
                               typed->words[0]);
     bt_command command = *typed;
     command.words[0] = typed->words[1];
@@ -107,8 +110,9 @@ static bt_status run(const bt_command* typed) {
 
 const bt_verb bt_verb_rig = {
     .name = "rig",
-    .summary = "drop tests of the gear and the rebound test of the hook",
-    .arguments = "nose-drop STUDY.yaml\nmain-drop STUDY.yaml\nhook-rebound STUDY.yaml",
+    .summary = "drop and static tests of the gear, rebound test of the hook",
+    .arguments = "nose-drop STUDY.yaml\nmain-drop STUDY.yaml\nhook-rebound STUDY.yaml\n"
+                 "nose-static STUDY.yaml\nmain-static STUDY.yaml",
     .text =
         "Runs one of the rigs that the study's `rigs:' describes and prints its metrics beside "
         "the reference values given there, with errors in percent. The figures go into "

@@ -102,6 +102,20 @@ double bt_curve_value(const bt_curve* curve, double x) {
     return y0 + t * (m0 + t * (b + t * a));
 }
 
+double bt_curve_slope(const bt_curve* curve, double x) {
+    const bt_curve* c = curve;
+    if (!(x > c->x[0]))
+        return c->slope[0];
+    if (x >= c->x[c->count - 1])
+        return c->slope[c->count - 1];
+    const int i = find_piece(c, x);
+    const double h = c->x[i + 1] - c->x[i], t = (x - c->x[i]) / h;
+    const double m0 = h * c->slope[i], m1 = h * c->slope[i + 1];
+    const double a = 2 * (c->y[i] - c->y[i + 1]) + m0 + m1;
+    const double b = 3 * (c->y[i + 1] - c->y[i]) - 2 * m0 - m1;
+    return (m0 + t * (2 * b + 3 * t * a)) / h;
+}
+
 double bt_curve_integral(const bt_curve* curve, double x) {
     if (curve->count < 2)
         return 0;

@@ -27,6 +27,9 @@ void bt_curve_make(bt_curve* curve, bt_curve_law law, int count, const double* x
 /// Value at x; the end values hold beyond the ends.
 double bt_curve_value(const bt_curve* curve, double x);
 
+/// Slope at x, law smooth: that of the last row beyond the end, of the first before the begin.
+double bt_curve_slope(const bt_curve* curve, double x);
+
 /// Integral from the first row to x, which lies between the ends (laws smooth and linear).
 double bt_curve_integral(const bt_curve* curve, double x);
 

@@ -6,8 +6,40 @@
 #include <math.h>
 
 const char* const bt_orifice_law_names[] = {"smooth", "linear", "stepped", NULL};
+const char* const bt_spring_names[] = {"gas", "points", NULL};
+
+static void check_points(const bt_oleo_params* p, const char* path, bt_diag* diag) {
+    const bt_table* t = &p->spring_points;
+    const char* fault = NULL;
+    if (t->count < 2)
+        fault = "two rows at least are needed where spring is points";
+    else if (t->x[0] != 0)
+        fault = "must begin at stroke 0 (its load there is the preload)";
+    for (int i = 0; !fault && i < t->count; ++i) {
+        if (!isfinite(t->x[i]) || !isfinite(t->y[i]) || t->y[i] < 0)
+            fault = "holds a load below 0 or a value that is not finite";
+        else if (i > 0 && t->x[i] <= t->x[i - 1])
+            fault = "must increase from row to row in its first column (stroke)";
+        else if (i > 0 && t->y[i] < t->y[i - 1])
+            fault = "decreases; the load must grow with the stroke";
+    }
+    if (fault)
+        bt_key_error(diag, path, "spring_points", "%s", fault);
+}
+
+static bool lacks(double value, const char* key, const char* path, bt_diag* diag) {
+    if (value > 0)
+        return false;
+    bt_key_error(diag, path, key, "needed above 0 where spring is gas");
+    return true;
+}
 
 static void check_gas(const bt_oleo_params* p, const char* path, bt_diag* diag) {
+    const bool no_area = lacks(p->air_area_m2, "air_area", path, diag);
+    const bool no_pressure = lacks(p->precharge_Pa, "precharge", path, diag);
+    const bool no_volume = lacks(p->air_volume_m3, "air_volume", path, diag);
+    if (no_area || no_pressure || no_volume)
+        return;
     const double swept = p->air_area_m2 * p->stroke_max_m;
     const bool two = p->high_precharge_Pa > 0 || p->high_volume_m3 > 0;
     const double volume = p->air_volume_m3 + (two ? p->high_volume_m3 : 0);
@@ -27,28 +59,32 @@ static void check_gas(const bt_oleo_params* p, const char* path, bt_diag* diag) 
     if (p->high_precharge_Pa <= p->precharge_Pa)
         bt_key_error(diag, path, "high_precharge", "%g Pa is not above the precharge of %g Pa",
                      p->high_precharge_Pa, p->precharge_Pa);
+    if (p->high_exponent > 0 && p->high_exponent < 1)
+        bt_key_error(diag, path, "high_exponent", "%g is outside 1 .. 1.7 (0: gas_exponent)",
+                     p->high_exponent);
 }
 
 static void check_orifices(const bt_oleo_params* p, const char* path, bt_diag* diag) {
-    if (p->orifice_table.count > 0) {
+    if (p->oil_area_m2 > 0 && p->orifice_table.count > 0) {
         const char* fault = bt_curve_fault(&p->orifice_table, 2);
         if (fault)
             bt_key_error(diag, path, "orifice_table", "%s", fault);
         if (p->orifice_area_m2 > 0)
             bt_key_error(diag, path, "orifice_area",
                          "orifice_table is given too; give one of them");
-    } else if (p->orifice_area_m2 <= 0) {
+    } else if (p->oil_area_m2 > 0 && p->orifice_area_m2 <= 0) {
         bt_key_error(diag, path, "orifice_area", "needed where orifice_table is not given");
     }
-    if (p->side_area_m2 > 0 &&
-        (p->side_orifice_compression_m2 <= 0 || p->side_orifice_extension_m2 <= 0))
+    if (p->side_area_m2 > 0 && p->side_orifice_compression_m2 <= 0 &&
+        p->side_orifice_extension_m2 <= 0)
         bt_key_error(diag, path, "side_area",
-                     "needs side_orifice_compression and side_orifice_extension above 0");
+                     "needs side_orifice_extension or side_orifice_compression above 0 (a "
+                     "direction that is left out flows freely)");
 }
 
 static void check_oleo(const void* params, const char* path, bt_diag* diag) {
     const bt_oleo_params* p = params;
-    check_gas(p, path, diag);
+    (p->spring == BT_SPRING_POINTS ? check_points : check_gas)(p, path, diag);
     check_orifices(p, path, diag);
     if (p->bearing_coefficient > 0 && p->side_load_ratio > 0 &&
         p->axle_distance_m <= p->stroke_max_m)
@@ -78,14 +114,17 @@ static void prepare_gas(const bt_oleo_params* p, bt_oleo* o) {
     o->ambient = p->ambient_Pa;
     o->exponent = n;
     o->oil_compliance = p->oil_volume_m3 / p->oil_bulk_modulus_Pa;
-    o->stage[0] = (bt_gas_stage){c1, p->air_volume_m3, p1, 0};
+    o->high_exponent = p->high_exponent > 0 ? p->high_exponent : n;
+    o->stage[0] = (bt_gas_stage){c1, 0, p->air_volume_m3, p1, 0};
     o->stage[1] = o->stage[0];
     o->second_stroke = INFINITY;
     if (p->high_volume_m3 <= 0)
         return;
     o->second_stroke =
         (p->air_volume_m3 + o->oil_compliance * (p2 - p1) - c1 * pow(p2, -1 / n)) / p->air_area_m2;
-    o->stage[1] = (bt_gas_stage){c1 + p->high_volume_m3 * pow(p2, 1 / n),
+    const double c2 = p->high_volume_m3 * pow(p2, 1 / o->high_exponent);
+    const bool alike = o->high_exponent == n;
+    o->stage[1] = (bt_gas_stage){alike ? c1 + c2 : c1, alike ? 0 : c2,
                                  p->air_volume_m3 + p->high_volume_m3, p2, gas_work(c1, n, p1, p2)};
 }
 
@@ -98,7 +137,10 @@ static void prepare_oil(const bt_oleo_params* p, bt_oleo* o) {
     o->main_constant = flow_constant(p->oil_density_kgpm3, p->oil_area_m2, p->discharge);
     o->rebound_ratio = p->rebound_ratio;
     o->rebound_area = p->rebound_area_m2;
-    if (p->orifice_table.count > 0) {
+    if (p->oil_area_m2 <= 0) {
+        const double zero = 0, one = 1; // nothing flows through it
+        bt_curve_make(&o->orifice, BT_CURVE_LINEAR, 1, &zero, &one);
+    } else if (p->orifice_table.count > 0) {
         bt_curve_make(&o->orifice, (bt_curve_law)p->orifice_law, p->orifice_table.count,
                       p->orifice_table.x, p->orifice_table.y);
     } else {
@@ -107,14 +149,18 @@ static void prepare_oil(const bt_oleo_params* p, bt_oleo* o) {
     }
     const double side = flow_constant(p->oil_density_kgpm3, p->side_area_m2, p->side_discharge);
     const double in = p->side_orifice_compression_m2, out = p->side_orifice_extension_m2;
-    o->side_compression = side > 0 ? side / (in * in) : 0;
-    o->side_extension = side > 0 ? side / (out * out) : 0;
+    o->side_compression = side > 0 && in > 0 ? side / (in * in) : 0;
+    o->side_extension = side > 0 && out > 0 ? side / (out * out) : 0;
 }
 
 void bt_oleo_prepare(const bt_oleo_params* params, bt_oleo* oleo) {
     const bt_oleo_params* p = params;
-    *oleo = (bt_oleo){0};
-    prepare_gas(p, oleo);
+    *oleo = (bt_oleo){.by_points = p->spring == BT_SPRING_POINTS, .second_stroke = INFINITY};
+    if (oleo->by_points)
+        bt_curve_make(&oleo->spring, BT_CURVE_SMOOTH, p->spring_points.count, p->spring_points.x,
+                      p->spring_points.y);
+    else
+        prepare_gas(p, oleo);
     prepare_oil(p, oleo);
     oleo->stroke_max = p->stroke_max_m;
     oleo->stop_stiffness = p->stop_stiffness_Npm;
@@ -128,16 +174,17 @@ void bt_oleo_prepare(const bt_oleo_params* params, bt_oleo* oleo) {
     oleo->rubs = oleo->seal_N > 0 || oleo->seal_coefficient > 0 || oleo->bearing > 0;
 }
 
-/// Pressure p at which the gas fills room + compliance (p - P_0), from the incompressible one.
-/// The residual is increasing and concave in p, so that Newton's method converges from below.
-static double soften(const bt_oleo* o, const bt_gas_stage* stage, double room, double stiff) {
-    const double n = o->exponent, kappa = o->oil_compliance;
-    const double least = stiff < o->precharge ? stiff : stage->pressure;
-    double p = stiff;
+/// Pressure p at which the gas fills room + compliance (p - P_0), from a first guess. The residual
+/// is increasing and concave in p, so that Newton's method converges from below.
+static double soften(const bt_oleo* o, const bt_gas_stage* stage, double room, double guess) {
+    const double n = o->exponent, n2 = o->high_exponent, kappa = o->oil_compliance;
+    const double least = guess < o->precharge ? guess : stage->pressure;
+    double p = guess;
     for (int i = 0; i < 60; ++i) {
         const double gas = stage->constant * pow(p, -1 / n);
-        const double residual = room + kappa * (p - o->precharge) - gas;
-        double next = p - residual / (kappa + gas / (n * p));
+        const double other = stage->other > 0 ? stage->other * pow(p, -1 / n2) : 0;
+        const double residual = room + kappa * (p - o->precharge) - gas - other;
+        double next = p - residual / (kappa + gas / (n * p) + other / (n2 * p));
         if (next < least)
             next = least;
         if (fabs(next - p) <= 1e-15 * p)
@@ -152,18 +199,46 @@ double bt_oleo_gas_pressure(const bt_oleo* oleo, double stroke_m) {
     const double room = stage->volume - oleo->air_area * stroke_m;
     if (!(room > 0))
         return INFINITY;
+    if (stage->other > 0)
+        return soften(oleo, stage, room, stage->pressure);
     const double p = pow(stage->constant / room, oleo->exponent);
     return oleo->oil_compliance > 0 ? soften(oleo, stage, room, p) : p;
 }
 
+/// A spring given by points: its curve, and its last slope beyond.
+static double points_force(const bt_oleo* o, double stroke_m) {
+    const bt_curve* c = &o->spring;
+    const int last = c->count - 1;
+    if (!(stroke_m > c->x[last]))
+        return bt_curve_value(c, stroke_m);
+    return c->y[last] + c->slope[last] * (stroke_m - c->x[last]);
+}
+
+static double points_energy(const bt_oleo* o, double stroke_m) {
+    const bt_curve* c = &o->spring;
+    const int last = c->count - 1;
+    const double beyond = stroke_m - c->x[last];
+    if (stroke_m < 0)
+        return c->y[0] * stroke_m;
+    if (beyond < 0)
+        return bt_curve_integral(c, stroke_m);
+    return c->before[last] + beyond * (c->y[last] + 0.5 * c->slope[last] * beyond);
+}
+
 double bt_oleo_gas_force(const bt_oleo* oleo, double stroke_m) {
+    if (oleo->by_points)
+        return points_force(oleo, stroke_m);
     return oleo->air_area * (bt_oleo_gas_pressure(oleo, stroke_m) - oleo->ambient);
 }
 
 double bt_oleo_gas_energy(const bt_oleo* oleo, double stroke_m) {
+    if (oleo->by_points)
+        return points_energy(oleo, stroke_m);
     const bt_gas_stage* stage = &oleo->stage[stroke_m > oleo->second_stroke];
     const double p = bt_oleo_gas_pressure(oleo, stroke_m), p0 = oleo->precharge;
-    return stage->energy + gas_work(stage->constant, oleo->exponent, stage->pressure, p) +
+    const double other =
+        stage->other > 0 ? gas_work(stage->other, oleo->high_exponent, stage->pressure, p) : 0;
+    return stage->energy + gas_work(stage->constant, oleo->exponent, stage->pressure, p) + other +
            0.5 * oleo->oil_compliance * (p - p0) * (p + p0) -
            oleo->ambient * oleo->air_area * stroke_m;
 }

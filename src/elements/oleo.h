@@ -8,17 +8,22 @@
 #include "elements/curve.h"
 
 extern const char* const bt_orifice_law_names[]; ///< in the order of bt_curve_law
+extern const char* const bt_spring_names[];      ///< "gas", "points", NULL
+enum { BT_SPRING_GAS, BT_SPRING_POINTS };
 
 // clang-format off
 #define BT_OLEO_FIELDS(F)                                                                          \
-    F(REAL, air_area, m2, REQUIRED, 0.0113, 1e-6, 10, "Eq. 3", "A_a: area the gas acts on") \
-    F(REAL, precharge, Pa, REQUIRED, 2.8e6, 1e3, 1e9, "Eq. 3", "P_0: absolute gas pressure, strut extended") \
-    F(REAL, air_volume, m3, REQUIRED, 8.04e-3, 1e-8, 10, "Eq. 3", "V_0: gas volume, strut extended") \
+    F(CHOICE, spring, bt_spring_names, OPTIONAL, 0, 0, 0, "", "what carries the static load: gas (Eq. 3), or points (a leaf, steel or rubber spring, or a measured static curve; in a file that describes rigs only the keys of the gas may then be left out)") \
+    F(TABLE, spring_points, m__N, OPTIONAL, 0, 0, 0, "", "spring: points: static load over stroke, from stroke 0 (the preload) on; loads never fall, the last slope goes on beyond the end") \
+    F(REAL, air_area, m2, REQUIRED, 0.0113, 0, 10, "Eq. 3", "A_a: area the gas acts on") \
+    F(REAL, precharge, Pa, REQUIRED, 2.8e6, 0, 1e9, "Eq. 3", "P_0: absolute gas pressure, strut extended") \
+    F(REAL, air_volume, m3, REQUIRED, 8.04e-3, 0, 10, "Eq. 3", "V_0: gas volume, strut extended") \
     F(PLAIN, gas_exponent, _, OPTIONAL, 1.15, 1, 1.7, "Eq. 3", "n: polytropic exponent of the gas") \
     F(REAL, ambient, Pa, OPTIONAL, 101325, 0, 2e5, "Eq. 3", "P_atm: ambient pressure") \
     F(REAL, high_precharge, Pa, OPTIONAL, 0, 0, 1e9, "", "P_02: absolute pressure at which the floating piston of a second chamber lifts; 0: no second chamber") \
     F(REAL, high_volume, m3, OPTIONAL, 0, 0, 10, "", "V_02: gas volume of the second chamber before it lifts") \
-    F(REAL, oil_area, m2, REQUIRED, 0.0098, 1e-6, 10, "Eq. 4", "A_h: area that pushes oil through the main orifice") \
+    F(PLAIN, high_exponent, _, OPTIONAL, 0, 0, 1.7, "", "n_2: polytropic exponent of the second chamber; 0: gas_exponent") \
+    F(REAL, oil_area, m2, REQUIRED, 0.0098, 0, 10, "Eq. 4", "A_h: area that pushes oil through the main orifice; 0: no oil") \
     F(REAL, oil_density, kgpm3, OPTIONAL, 860, 100, 3000, "Eq. 4", "rho: density of the oil") \
     F(REAL, orifice_area, m2, OPTIONAL, 0, 0, 1, "Eq. 4", "A_d: main orifice, constant over the stroke; needed where orifice_table is not given") \
     F(TABLE, orifice_table, m__m2, OPTIONAL, 0, 0, 0, "Eq. 4", "A_d(s): main orifice over the stroke (metering pin), strokes increasing; the end values hold beyond the ends") \
@@ -27,8 +32,8 @@ extern const char* const bt_orifice_law_names[]; ///< in the order of bt_curve_l
     F(PLAIN, rebound_ratio, _, OPTIONAL, 1, 1e-4, 100, "Eq. 4", "main orifice in extension over that in compression (rebound valve)") \
     F(REAL, rebound_area, m2, OPTIONAL, 0, 0, 1, "Eq. 4", "main orifice in extension, constant; 0: rebound_ratio holds") \
     F(REAL, side_area, m2, OPTIONAL, 0, 0, 10, "Eq. 4", "A_hs: area that pushes oil through the side (recoil) orifice; 0: none") \
-    F(REAL, side_orifice_compression, m2, OPTIONAL, 0, 0, 1, "Eq. 4", "A_n: side orifice while the strut shortens") \
-    F(REAL, side_orifice_extension, m2, OPTIONAL, 0, 0, 1, "Eq. 4", "A_n: side orifice while the strut extends (snubber closed)") \
+    F(REAL, side_orifice_compression, m2, OPTIONAL, 0, 0, 1, "Eq. 4", "A_n: side orifice while the strut shortens; 0: it flows freely (valve open)") \
+    F(REAL, side_orifice_extension, m2, OPTIONAL, 0, 0, 1, "Eq. 4", "A_n: side orifice while the strut extends (snubber closed); 0: it flows freely") \
     F(PLAIN, side_discharge, _, OPTIONAL, 0.65, 0.05, 2, "Eq. 4", "C_ds: discharge coefficient of the side orifice") \
     F(REAL, stroke_max, m, REQUIRED, 0.6, 1e-3, 10, "Eq. 5", "s_max: full stroke") \
     F(REAL, stop_stiffness, Npm, OPTIONAL, 3e7, 0, 1e12, "Eq. 5", "k_l: stiffness beyond either end of the stroke [assumed]") \
@@ -45,9 +50,11 @@ extern const char* const bt_orifice_law_names[]; ///< in the order of bt_curve_l
 // clang-format on
 BT_DECLARE_GROUP(oleo, BT_OLEO_FIELDS)
 
-/// One gas stage: C p^(-1/n) is the volume of the gas that takes part.
+/// One gas stage: C p^(-1/n) is the volume of the gas that takes part, plus C_2 p^(-1/n_2) where
+/// the second chamber has an exponent of its own.
 typedef struct bt_gas_stage {
     double constant; ///< C = sum of V P^(1/n)
+    double other;    ///< C_2 = V_02 P_02^(1/n_2); 0 where both chambers have one exponent
     double volume;   ///< all gas volume with the strut extended
     double pressure; ///< at which the stage begins
     double energy;   ///< of the gas when it begins
@@ -55,7 +62,7 @@ typedef struct bt_gas_stage {
 
 /// A strut ready to be evaluated: constants of the formulas, plain data.
 typedef struct bt_oleo {
-    double air_area, precharge, ambient, exponent;
+    double air_area, precharge, ambient, exponent, high_exponent;
     double second_stroke;  ///< where the second chamber lifts; infinite without one
     bt_gas_stage stage[2]; ///< first chamber alone; both
     double oil_compliance; ///< V_oil / B, m3/Pa
@@ -66,6 +73,8 @@ typedef struct bt_oleo {
     double stroke_max, stop_stiffness, stop_damping;
     bool rubs; ///< there is friction
     double seal_N, seal_coefficient, bearing, axle_distance, bearing_distance, friction_speed;
+    bool by_points; ///< the spring is given by points
+    bt_curve spring;
 } bt_oleo;
 
 /// Prepares checked parameters (bt_group_check(&bt_oleo_group, ...)). No allocation, cannot fail.
@@ -80,7 +89,9 @@ double bt_oleo_gas_pressure(const bt_oleo* oleo, double stroke_m);
 ///
 /// Beyond the stroke where the pressure reaches P_02 both chambers share one pressure (the piston
 /// between them floats): p = ( (V_0 P_0^1/n + V_02 P_02^1/n) / (V_0 + V_02 - A_a s) )^n, which is
-/// continuous there. With compressible oil the gas keeps V_oil (p - P_0) / B more room.
+/// continuous there. Where the second chamber has its own exponent n_2, p is the root of
+/// V_0 (P_0/p)^(1/n) + V_02 (P_02/p)^(1/n_2) = V_0 + V_02 - A_a s. With compressible oil the gas
+/// keeps V_oil (p - P_0) / B more room. A spring given by points has its curve instead.
 ///
 /// @param stroke_m  m, below the stroke that leaves no gas volume (the check keeps s_max below it);
 ///                  at or beyond that stroke the result is infinite, which the step reports

@@ -30,6 +30,8 @@ static void check_tyre(const void* params, const char* path, bt_diag* diag) {
     if (p->bottoming_deflection_m >= p->radius_m)
         bt_key_error(diag, path, "bottoming_deflection", "%g m is not below the radius",
                      p->bottoming_deflection_m);
+    if (p->damping_ratio > 0 && p->damping_mass_kg <= 0)
+        bt_key_error(diag, path, "damping_mass", "needed above 0 where damping_ratio is given");
     if (p->locked_friction > p->friction)
         bt_key_error(diag, path, "locked_friction", "%g is above the peak `friction` of %g",
                      p->locked_friction, p->friction);
@@ -70,6 +72,7 @@ void bt_tyre_prepare(const bt_tyre_params* params, bt_tyre* tyre) {
         .locked_friction = p->locked_friction,
         .peak_slip = p->peak_slip,
         .slip_speed = p->slip_speed_mps,
+        .critical = 2 * p->damping_ratio * sqrt(p->damping_mass_kg),
         .strips = BT_TYRE_STRIPS,
     };
     if (p->law == BT_TYRE_POINTS)
@@ -129,10 +132,30 @@ double bt_tyre_energy(const bt_tyre* tyre, double deflection_m) {
     return tyre->tyres * one_energy(tyre, deflection_m) + 0.5 * tyre->rim_stiffness * rim * rim;
 }
 
+static double one_stiffness(const bt_tyre* t, double d) {
+    if (t->law == BT_TYRE_SMILEY_HORNE) {
+        const double x = d / t->width;
+        return t->scale / t->width * (x < 10 * t->cz / 3 ? 0.96 + 0.432 / t->cz * x : 2.4);
+    }
+    if (t->law == BT_TYRE_POWER)
+        return t->power_scale * t->power * pow(d, t->power - 1);
+    return bt_curve_slope(&t->points, d);
+}
+
+double bt_tyre_stiffness(const bt_tyre* tyre, double deflection_m) {
+    if (!(deflection_m > 0))
+        return 0;
+    const double rim = deflection_m > tyre->bottoming ? tyre->rim_stiffness : 0;
+    return tyre->tyres * one_stiffness(tyre, deflection_m) + rim;
+}
+
 double bt_tyre_normal_force(const bt_tyre* tyre, double deflection_m, double rate_mps) {
     if (!(deflection_m > 0))
         return 0;
-    return fmax(bt_tyre_load(tyre, deflection_m) + tyre->damping * rate_mps, 0);
+    double damping = tyre->damping;
+    if (tyre->critical > 0)
+        damping += tyre->critical * sqrt(bt_tyre_stiffness(tyre, deflection_m));
+    return fmax(bt_tyre_load(tyre, deflection_m) + damping * rate_mps, 0);
 }
 
 /* Longitudinal and lateral force. */

@@ -22,6 +22,8 @@ enum { BT_TYRE_SMILEY_HORNE, BT_TYRE_POINTS, BT_TYRE_POWER };
     F(REAL, power_load, N, OPTIONAL, 1e5, 1e-3, 1e9, "", "power law: F = power_load (d / d_0)^m [assumed]") \
     F(PLAIN, power_exponent, _, OPTIONAL, 1.34, 0.5, 5, "", "power law: m") \
     F(REAL, damping, Npmps, OPTIONAL, 2000, 0, 1e8, "", "c of f(d) + c d', all tyres of the axle [assumed]") \
+    F(PLAIN, damping_ratio, _, OPTIONAL, 0, 0, 2, "", "zeta: adds damping 2 zeta sqrt(m f'(d)), m being damping_mass: none at first touch, growing with the tyre's stiffness") \
+    F(REAL, damping_mass, kg, OPTIONAL, 0, 0, 1e5, "", "m of damping_ratio: the unsprung mass of the axle; needed with it") \
     F(REAL, bottoming_deflection, m, OPTIONAL, 0, 0, 5, "", "deflection at which the tyre bottoms on its rim; 0: never") \
     F(REAL, rim_stiffness, Npm, OPTIONAL, 2e7, 0, 1e12, "", "stiffness added beyond bottoming_deflection, all tyres [assumed]") \
     F(REAL, cornering_stiffness, Nprad, OPTIONAL, 0, 0, 1e9, "Eq. 8", "C_alpha, all tyres of the axle; 0: from size, pressure and deflection (NASA TR R-64, type VII)") \
@@ -44,6 +46,7 @@ typedef struct bt_tyre {
     double bottoming, rim_stiffness;
     double cornering, cornering_scale;
     double friction, locked_friction, peak_slip, slip_speed;
+    double critical; ///< 2 zeta sqrt(m) of damping_ratio
     int strips; ///< strips over each bump's part of the contact patch; the caller may change it
 } bt_tyre;
 
@@ -54,7 +57,9 @@ void bt_tyre_prepare(const bt_tyre_params* params, bt_tyre* tyre);
 double bt_tyre_load(const bt_tyre* tyre, double deflection_m);
 /// Energy of that load, J: f is its derivative.
 double bt_tyre_energy(const bt_tyre* tyre, double deflection_m);
-/// Magnitude f(d) + c d', never negative, 0 off the ground, N.
+/// Stiffness f'(d), N/m; 0 for d <= 0.
+double bt_tyre_stiffness(const bt_tyre* tyre, double deflection_m);
+/// Magnitude f(d) + (c + 2 zeta sqrt(m f'(d))) d', never negative, 0 off the ground, N.
 double bt_tyre_normal_force(const bt_tyre* tyre, double deflection_m, double rate_mps);
 
 /// What stands above the deck in the plane of a wheel: a circle (the cable's cross-section) or a

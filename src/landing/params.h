@@ -14,8 +14,8 @@
     F(REAL, station, m, REQUIRED, -1.2, -30, 30, "", "x of the axle from the centre of gravity, forward positive") \
     F(REAL, half_track, m, REQUIRED, 2.445, 0, 20, "", "distance of the axle from the plane of symmetry; 0 for the nose gear") \
     F(REAL, underside, m, REQUIRED, -2.59, -20, 0, "", "height of the extended tyre's underside from the centre of gravity (negative)") \
-    F(REAL, piston_mass, kg, REQUIRED, 120, 1, 1e4, "", "mass of the sliding part without wheels") \
-    F(REAL, wheel_mass, kg, REQUIRED, 50, 1, 1e4, "", "mass of the turning part") \
+    F(REAL, piston_mass, kg, REQUIRED, 120, 1e-6, 1e4, "", "mass of the sliding part without wheels") \
+    F(REAL, wheel_mass, kg, REQUIRED, 50, 1e-6, 1e4, "", "mass of the turning part") \
     F(REAL, wheel_inertia, kgm2, REQUIRED, 8, 1e-3, 1e4, "", "inertia of the turning part about its axle") \
     F(GROUP, oleo, oleo, REQUIRED, 0, 0, 0, "", "shock strut") \
     F(GROUP, tyre, tyre, REQUIRED, 0, 0, 0, "", "tyre, all of one leg together")

@@ -51,16 +51,24 @@ void bt_rig_record_observe(void* user, const bt_rig_sample* sample) {
     ++record->count;
 }
 
-double bt_rig_record_at(const bt_rig_record* record, int column, double time_s) {
-    const double *t = record->columns[0], *y = record->columns[column];
-    if (record->count < 2 || !(time_s >= t[0] && time_s <= t[record->count - 1]))
+bool bt_rig_record_grows(const bt_rig_record* record, int column) {
+    const double* x = record->columns[column];
+    for (int i = 1; i < record->count; ++i)
+        if (!(x[i] > x[i - 1]))
+            return false;
+    return true;
+}
+
+double bt_rig_record_at(const bt_rig_record* record, int column, int over, double x) {
+    const double *t = record->columns[over], *y = record->columns[column];
+    if (record->count < 2 || !(x >= t[0] && x <= t[record->count - 1]))
         return NAN;
     int low = 0, high = record->count - 1;
     while (high - low > 1) {
         const int middle = (low + high) / 2;
-        *(t[middle] <= time_s ? &low : &high) = middle;
+        *(t[middle] <= x ? &low : &high) = middle;
     }
-    return y[low] + (y[high] - y[low]) * (time_s - t[low]) / (t[high] - t[low]);
+    return y[low] + (y[high] - y[low]) * (x - t[low]) / (t[high] - t[low]);
 }
 
 // --- file -------------------------------------------------------------------------------------

@@ -20,8 +20,11 @@ void bt_rig_record_destroy(bt_rig_record* record);
 /// The observer to hand to bt_rig_run, with the record as `user`.
 void bt_rig_record_observe(void* user, const bt_rig_sample* sample);
 
-/// A column at a time, between two rows; NAN outside the record.
-double bt_rig_record_at(const bt_rig_record* record, int column, double time_s);
+/// Whether a column grows from row to row, so that others are functions of it: time does.
+bool bt_rig_record_grows(const bt_rig_record* record, int column);
+
+/// A column where another one that grows has the value x, between two rows; NAN outside the record.
+double bt_rig_record_at(const bt_rig_record* record, int column, int over, double x);
 
 /// Writes an HDF5 file under a temporary name, then renames it: one dataset per column with the
 /// attribute `unit`, the metrics and their references as attributes of the file, the study's text

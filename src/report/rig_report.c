@@ -53,8 +53,10 @@ void bt_rig_curve_error(const bt_rig_record* record, const bt_measured* measured
                         double* share) {
     double sum = 0, most = 0;
     int count = 0;
-    for (int i = 0; measured->x_column == 0 && i < measured->count; ++i) {
-        const double got = bt_rig_record_at(record, measured->y_column, measured->x[i]);
+    const bool single = bt_rig_record_grows(record, measured->x_column);
+    for (int i = 0; single && i < measured->count; ++i) {
+        const double got =
+            bt_rig_record_at(record, measured->y_column, measured->x_column, measured->x[i]);
         most = fmax(most, fabs(measured->y[i]));
         if (!isfinite(got))
             continue;
@@ -90,8 +92,46 @@ static void print_metric(FILE* out, const bt_metric* m) {
     fputc('\n', out);
 }
 
+double bt_rig_point_tolerance(bt_rig_kind kind, const bt_rigs_params* rigs) {
+    if (kind != BT_RIG_NOSE_STATIC && kind != BT_RIG_MAIN_STATIC)
+        return 0;
+    return bt_rig_is_nose(kind) ? rigs->nose_static.reference.tolerance
+                                : rigs->main_static.reference.tolerance;
+}
+
+/// One point of a measured curve as if it were a metric.
+static bt_metric point_of(const bt_rig_record* record, const bt_measured* m, int i,
+                          double tolerance) {
+    bt_metric p = {.name = record->names[m->y_column],
+                   .unit = m->y_token,
+                   .value = bt_rig_record_at(record, m->y_column, m->x_column, m->x[i]),
+                   .reference = m->y[i],
+                   .tolerance = tolerance};
+    p.error_percent = 100 * (p.value - p.reference) / fabs(p.reference);
+    p.accepted = fabs(p.error_percent) <= 100 * tolerance;
+    return p;
+}
+
+static void print_points(FILE* out, const bt_rig_record* record, const bt_measured* m,
+                         double tolerance) {
+    int good = 0;
+    double worst = 0;
+    for (int i = 0; i < m->count; ++i) {
+        char name[64], x[40];
+        bt_metric p = point_of(record, m, i, tolerance);
+        put_value(m->x[i], x, sizeof x);
+        snprintf(name, sizeof name, "  at %.30s %.20s", record->names[m->x_column], x);
+        p.name = name;
+        print_metric(out, &p);
+        good += p.accepted;
+        worst = fmax(worst, fabs(p.error_percent));
+    }
+    fprintf(out, "%d of %d points within %g %%, largest error %.2f %%\n", good, m->count,
+            100 * tolerance, worst);
+}
+
 void bt_rig_print(FILE* out, const bt_rig_result* result, const bt_rig_record* record,
-                  const bt_rig_curves* curves) {
+                  const bt_rig_curves* curves, double tolerance) {
     fprintf(out, "%-24s %10s %-4s %10s %10s %10s  %s\n", "metric", "value", "unit", "reference",
             "error", "tolerance", "accepted");
     for (int i = 0; i < result->metric_count; ++i)
@@ -106,6 +146,8 @@ void bt_rig_print(FILE* out, const bt_rig_result* result, const bt_rig_record* r
                     record->names[m->y_column], 100 * share);
         else
             fprintf(out, "%s over %s, drawn only\n", m->y_name, m->x_name);
+        if (tolerance > 0 && isfinite(rms))
+            print_points(out, record, m, tolerance);
     }
 }
 
@@ -121,8 +163,24 @@ static void write_metric(bt_json* json, const bt_metric* m) {
     bt_json_end_object(json);
 }
 
+static void write_points(bt_json* json, const bt_rig_record* record, const bt_measured* m,
+                         double tolerance) {
+    bt_json_begin_array(json, "points");
+    for (int i = 0; i < m->count; ++i) {
+        const bt_metric p = point_of(record, m, i, tolerance);
+        bt_json_begin_object(json, NULL);
+        bt_json_number(json, record->names[m->x_column], m->x[i]);
+        bt_json_number(json, "value", p.value);
+        bt_json_number(json, "reference", p.reference);
+        bt_json_number(json, "error_percent", p.error_percent);
+        bt_json_bool(json, "accepted", p.accepted);
+        bt_json_end_object(json);
+    }
+    bt_json_end_array(json);
+}
+
 void bt_rig_write_json(bt_json* json, const bt_rig_result* result, const bt_rig_record* record,
-                       const bt_rig_curves* curves) {
+                       const bt_rig_curves* curves, double tolerance) {
     bt_json_begin_object(json, "metrics");
     for (int i = 0; i < result->metric_count; ++i)
         write_metric(json, &result->metrics[i]);
@@ -136,6 +194,8 @@ void bt_rig_write_json(bt_json* json, const bt_rig_result* result, const bt_rig_
         bt_json_string(json, "channel", record->names[curves->measured[i]->y_column]);
         bt_json_number(json, "rms", rms);
         bt_json_number(json, "rms_percent", 100 * share);
+        if (tolerance > 0 && isfinite(rms))
+            write_points(json, record, curves->measured[i], tolerance);
         bt_json_end_object(json);
     }
     bt_json_end_array(json);

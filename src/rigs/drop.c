@@ -12,8 +12,9 @@ typedef struct drop_rig {
     double lift_N;
     double start_m;       ///< height of the mass at touchdown
     double rolling_radps; ///< wheel speed that follows the belt
-    double unsprung_kg;
+    double unsprung_kg, sink_mps;
     bt_oleo oleo;
+    bt_tyre tyre;
 } drop_rig;
 
 static void add_bodies(const bt_gear_params* gear, const bt_drop_params* drop, double stroke_m,
@@ -39,7 +40,7 @@ static void add_bodies(const bt_gear_params* gear, const bt_drop_params* drop, d
     for (int i = 0; i < 3; ++i) {
         bt_body_def body = bodies[i];
         body.attitude[0] = 1;
-        body.velocity_mps[2] = -drop->sink_speed_mps;
+        body.velocity_mps[2] = -d->sink_mps;
         bt_system_add_body(system, &body);
     }
 }
@@ -84,8 +85,11 @@ static bt_status build(const bt_gear_params* gear, const bt_drop_params* drop, d
     bt_oleo_prepare(&gear->oleo, &strut.oleo);
     d->oleo = strut.oleo;
     d->unsprung_kg = unsprung;
+    d->sink_mps = drop->drop_height_m > 0 ? sqrt(2 * drop->gravity_mps2 * drop->drop_height_m)
+                                          : drop->sink_speed_mps;
     bt_wheel wheel = {.deck_velocity_mps = {-drop->belt_speed_mps, 0, 0}};
     bt_tyre_prepare(&gear->tyre, &wheel.tyre);
+    d->tyre = wheel.tyre;
     // As it falls: the stop carries the gas, and what the unsprung parts feel of the lift.
     const double felt = drop->lift_ratio * drop->gravity_mps2;
     add_bodies(gear, drop, bt_oleo_hanging_stroke(&strut.oleo, unsprung * felt), d);
@@ -124,20 +128,21 @@ static void look(const drop_rig* d, double channel[BT_DROP_CHANNELS]) {
     channel[SPIN] = d->rig.state.v[6 * BODY_WHEEL + 4];
 }
 
-/// What is kept of a run: extremes, the work of the strut while it first shortens, spin-up.
+/// What is kept of a run: extremes, the work done on the strut, spin-up.
 typedef struct record {
     double most[BT_DROP_CHANNELS];
-    double work_J, last_stroke, last_force, spin_up_s;
-    bool extending;
+    double work_J;  ///< until now
+    double taken_J; ///< until the largest stroke
+    double last_stroke, last_force, spin_up_s;
 } record;
 
 static void keep(record* r, const drop_rig* d, const double channel[BT_DROP_CHANNELS]) {
+    r->work_J += 0.5 * (channel[STRUT_FORCE] + r->last_force) *
+                 (fmax(channel[STROKE], 0) - fmax(r->last_stroke, 0));
+    if (channel[STROKE] > r->most[STROKE])
+        r->taken_J = r->work_J;
     for (int i = 0; i < BT_DROP_CHANNELS; ++i)
         r->most[i] = fmax(r->most[i], channel[i]);
-    r->extending |= channel[STROKE_RATE] < 0 && channel[STROKE] > 0;
-    if (!r->extending)
-        r->work_J += 0.5 * (channel[STRUT_FORCE] + r->last_force) *
-                     (fmax(channel[STROKE], 0) - fmax(r->last_stroke, 0));
     r->last_stroke = channel[STROKE];
     r->last_force = channel[STRUT_FORCE];
     // A loaded tyre turns faster than the belt over its free radius, so this is reached.
@@ -145,30 +150,59 @@ static void keep(record* r, const drop_rig* d, const double channel[BT_DROP_CHAN
         r->spin_up_s = d->rig.state.time_s;
 }
 
+/// The error that is accepted of one value.
+static double accepted(const bt_drop_reference_params* ref, double own) {
+    return own > 0 ? own : ref->tolerance;
+}
+
 static void report(const bt_drop_params* drop, const record* r, const drop_rig* d,
                    bt_rig_result* result) {
     const bt_drop_reference_params* ref = &drop->reference;
+    const double tyre_J = bt_tyre_energy(&d->tyre, r->most[TYRE]);
     *result = (bt_rig_result){.steps = d->rig.state.steps, .end_time_s = d->rig.state.time_s};
-    bt_rig_add(result, "stroke_max_m", "m", r->most[STROKE], ref->stroke_max_m, ref->tolerance);
-    bt_rig_add(result, "sinkage_max_m", "m", r->most[SINKAGE], ref->sinkage_max_m, ref->tolerance);
+    bt_rig_add(result, "stroke_max_m", "m", r->most[STROKE], ref->stroke_max_m,
+               accepted(ref, ref->stroke_max_tolerance));
+    bt_rig_add(result, "sinkage_max_m", "m", r->most[SINKAGE], ref->sinkage_max_m,
+               accepted(ref, ref->sinkage_max_tolerance));
     bt_rig_add(result, "tyre_compression_max_m", "m", r->most[TYRE], ref->tyre_compression_max_m,
-               ref->tolerance);
+               accepted(ref, ref->tyre_compression_max_tolerance));
     bt_rig_add(result, "tyre_force_max_N", "N", r->most[TYRE_FORCE], ref->tyre_force_max_N,
-               ref->tolerance);
-    bt_rig_add(result, "strut_force_max_N", "N", r->most[STRUT_FORCE], 0, 0);
-    bt_rig_add(result, "drag_force_max_N", "N", r->most[DRAG], 0, 0);
-    bt_rig_add(result, "efficiency", "1", r->work_J / (r->most[STRUT_FORCE] * r->most[STROKE]), 0,
-               0);
+               accepted(ref, ref->tyre_force_max_tolerance));
+    bt_rig_add(result, "strut_force_max_N", "N", r->most[STRUT_FORCE], ref->strut_force_max_N,
+               accepted(ref, ref->strut_force_max_tolerance));
+    bt_rig_add(result, "drag_force_max_N", "N", r->most[DRAG] + 0.0, 0, 0); // no -0
+    bt_rig_add(result, "efficiency", "1", r->taken_J / (r->most[STRUT_FORCE] * r->most[STROKE]),
+               ref->efficiency, accepted(ref, ref->efficiency_tolerance));
     bt_rig_add(result, "spin_up_time_s", "s", r->spin_up_s, 0, 0);
+    bt_rig_add(result, "strut_energy_J", "J", r->taken_J, ref->strut_energy_J,
+               accepted(ref, ref->strut_energy_tolerance));
+    bt_rig_add(result, "tyre_energy_J", "J", tyre_J, ref->tyre_energy_J,
+               accepted(ref, ref->tyre_energy_tolerance));
+    bt_rig_add(result, "tyre_efficiency", "1", tyre_J / (r->most[TYRE_FORCE] * r->most[TYRE]),
+               ref->tyre_efficiency, accepted(ref, ref->tyre_efficiency_tolerance));
+}
+
+/// Slope of the friction over the rate where it changes sign, if the next step may lead there:
+/// phi' is 3 / (2 friction_speed) at rest.
+static double friction_slope(const drop_rig* d, double stroke_m, double rate_mps,
+                             double last_rate_mps) {
+    const bt_oleo* o = &d->oleo;
+    const double speed = o->friction_speed;
+    if (!o->rubs || fabs(rate_mps) > speed + 2 * fabs(rate_mps - last_rate_mps))
+        return 0;
+    const double full = bt_oleo_friction_force(o, stroke_m, speed, bt_oleo_gas_force(o, stroke_m),
+                                               bt_oleo_oil_force(o, stroke_m, rate_mps));
+    return 1.5 * full / speed;
 }
 
 /// The step that is asked for, or a shorter one where the damping of the unsprung mass would be
-/// unstable: 0.8 of m / (dF_h/ds'), dF_h/ds' = 2 F_h / s'. A rebound valve asks for it when the
-/// wheel has left the platform.
+/// unstable: 0.8 of m / (dF/ds'), with dF_h/ds' = 2 F_h / s' and the slope of the friction. A
+/// rebound valve asks for it when the wheel has left the platform.
 static double next_step(const bt_drop_params* drop, const drop_rig* d, double stroke_m,
-                        double rate_mps) {
-    const double damping =
+                        double rate_mps, double last_rate_mps) {
+    const double oil =
         rate_mps != 0 ? 2 * bt_oleo_oil_force(&d->oleo, stroke_m, rate_mps) / rate_mps : 0;
+    const double damping = oil + friction_slope(d, stroke_m, rate_mps, last_rate_mps);
     return damping * drop->step_s > 0.8 * d->unsprung_kg ? 0.8 * d->unsprung_kg / damping
                                                          : drop->step_s;
 }
@@ -178,13 +212,15 @@ static bt_status run(const bt_gear_params* gear, const bt_drop_params* drop, dro
     BT_TRY(build(gear, drop, d));
     BT_TRY(bt_rig_evaluate(&d->rig));
     record r = {.spin_up_s = NAN};
-    double channel[BT_DROP_CHANNELS];
+    double channel[BT_DROP_CHANNELS], last_rate = 0;
     look(d, channel);
     bt_rig_show(&d->rig, BT_DROP_CHANNELS, bt_drop_channels, channel);
     while (d->rig.state.time_s < drop->duration_s - 1e-6 * drop->step_s) {
         const double left = drop->duration_s - d->rig.state.time_s;
         d->rig.state.applied[6 * BODY_MASS + 2] = d->lift_N;
-        const double step = next_step(drop, d, channel[STROKE], channel[STROKE_RATE]);
+        const double rate = channel[STROKE_RATE];
+        const double step = next_step(drop, d, channel[STROKE], rate, last_rate);
+        last_rate = rate;
         BT_TRY(bt_rig_step(&d->rig, fmin(step, left)));
         look(d, channel);
         keep(&r, d, channel);

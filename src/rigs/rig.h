@@ -7,7 +7,8 @@
 
 extern const char* const bt_drop_channels[];
 extern const char* const bt_rebound_channels[];
-enum { BT_DROP_CHANNELS = 8, BT_REBOUND_CHANNELS = 6 };
+extern const char* const bt_static_channels[];
+enum { BT_DROP_CHANNELS = 8, BT_REBOUND_CHANNELS = 6, BT_STATIC_CHANNELS = 3 };
 
 /// A system in motion with the memory of its state.
 typedef struct bt_rig {
@@ -36,6 +37,10 @@ const double* bt_rig_output(const bt_rig* rig, int element);
 
 /// Hands a line of the histories to the observer, if there is one.
 void bt_rig_show(const bt_rig* rig, int count, const char* const* names, const double* values);
+
+/// The same at a time of the caller's.
+void bt_rig_show_at(const bt_rig* rig, double time_s, int count, const char* const* names,
+                    const double* values);
 
 /// Adds a metric with its reference (0: none) and the error that is accepted.
 void bt_rig_add(bt_rig_result* result, const char* name, const char* unit, double value,

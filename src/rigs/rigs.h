@@ -10,12 +10,27 @@
     F(REAL, sinkage_max, m, OPTIONAL, 0, 0, 10, "Tables 1-2", "measured largest sinkage of the centre of gravity; 0: none") \
     F(REAL, tyre_compression_max, m, OPTIONAL, 0, 0, 5, "Table 1", "measured largest tyre compression; 0: none") \
     F(REAL, tyre_force_max, N, OPTIONAL, 0, 0, 1e9, "Tables 1-2", "measured peak vertical tyre load; 0: none") \
-    F(PLAIN, tolerance, _, OPTIONAL, 0.03, 0, 1, "Tables 1-2", "error that is accepted, as a share")
+    F(REAL, strut_force_max, N, OPTIONAL, 0, 0, 1e9, "", "measured largest load of the strut; 0: none") \
+    F(PLAIN, efficiency, _, OPTIONAL, 0, 0, 2, "", "measured efficiency of the strut; 0: none") \
+    F(REAL, strut_energy, J, OPTIONAL, 0, 0, 1e9, "", "measured energy that the strut takes up; 0: none") \
+    F(REAL, tyre_energy, J, OPTIONAL, 0, 0, 1e9, "", "measured energy stored in the tyre; 0: none") \
+    F(PLAIN, tyre_efficiency, _, OPTIONAL, 0, 0, 2, "", "measured efficiency of the tyre; 0: none") \
+    F(PLAIN, tolerance, _, OPTIONAL, 0.03, 0, 1, "Tables 1-2", "error that is accepted, as a share") \
+    F(PLAIN, stroke_max_tolerance, _, OPTIONAL, 0, 0, 1, "", "the same for one value; 0: `tolerance` holds") \
+    F(PLAIN, sinkage_max_tolerance, _, OPTIONAL, 0, 0, 1, "", "as above") \
+    F(PLAIN, tyre_compression_max_tolerance, _, OPTIONAL, 0, 0, 1, "", "as above") \
+    F(PLAIN, tyre_force_max_tolerance, _, OPTIONAL, 0, 0, 1, "", "as above") \
+    F(PLAIN, strut_force_max_tolerance, _, OPTIONAL, 0, 0, 1, "", "as above") \
+    F(PLAIN, efficiency_tolerance, _, OPTIONAL, 0, 0, 1, "", "as above") \
+    F(PLAIN, strut_energy_tolerance, _, OPTIONAL, 0, 0, 1, "", "as above") \
+    F(PLAIN, tyre_energy_tolerance, _, OPTIONAL, 0, 0, 1, "", "as above") \
+    F(PLAIN, tyre_efficiency_tolerance, _, OPTIONAL, 0, 0, 1, "", "as above")
 BT_DECLARE_GROUP(drop_reference, BT_DROP_REFERENCE_FIELDS)
 
 #define BT_DROP_FIELDS(F)                                                                          \
     F(REAL, mass, kg, REQUIRED, 9100, 1, 1e6, "Sec. 3.1", "everything that falls, leg included") \
-    F(REAL, sink_speed, mps, REQUIRED, 6, 0, 20, "Sec. 3.1", "vertical speed at touchdown") \
+    F(REAL, sink_speed, mps, REQUIRED, 6, 0, 20, "Sec. 3.1", "vertical speed at touchdown; not needed where drop_height is given") \
+    F(REAL, drop_height, m, OPTIONAL, 0, 0, 50, "", "height of a free fall h before touchdown, sink_speed = sqrt(2 g h); 0: sink_speed holds") \
     F(PLAIN, lift_ratio, _, OPTIONAL, 1, 0, 2, "", "lift over weight after touchdown; 0: free drop") \
     F(REAL, belt_speed, mps, OPTIONAL, 0, -150, 150, "", "speed of the belt under the wheel, backward positive (spin-up); 0: platform at rest") \
     F(REAL, gravity, mps2, OPTIONAL, 9.80665, 0, 100, "", "acceleration of gravity") \
@@ -48,10 +63,26 @@ BT_DECLARE_GROUP(rebound_reference, BT_REBOUND_REFERENCE_FIELDS)
     F(GROUP, reference, rebound_reference, OPTIONAL, 0, 0, 0, "Table 3", "the measurement to compare with")
 BT_DECLARE_GROUP(rebound, BT_REBOUND_FIELDS)
 
+#define BT_STATIC_REFERENCE_FIELDS(F)                                                              \
+    F(REAL, load_extended, N, OPTIONAL, 0, 0, 1e9, "", "measured load at which the strut leaves its stop; 0: none") \
+    F(REAL, load_compressed, N, OPTIONAL, 0, 0, 1e9, "", "measured load at the end of the stroke; 0: none") \
+    F(REAL, energy, J, OPTIONAL, 0, 0, 1e9, "", "measured work of the press; 0: none") \
+    F(PLAIN, tolerance, _, OPTIONAL, 0.03, 0, 1, "", "error that is accepted, as a share; holds for the points of `curve` too")
+BT_DECLARE_GROUP(static_reference, BT_STATIC_REFERENCE_FIELDS)
+
+#define BT_STATIC_FIELDS(F)                                                                        \
+    F(REAL, stroke, m, OPTIONAL, 0, 0, 10, "", "how far the strut is pressed together; 0: stroke_max") \
+    F(REAL, speed, mps, OPTIONAL, 1e-3, 1e-6, 1, "", "speed of the press: the oil resists as little as it does then [assumed]") \
+    F(COUNT, points, _, OPTIONAL, 400, 10, 100000, "", "steps of the press") \
+    F(GROUP, reference, static_reference, OPTIONAL, 0, 0, 0, "", "the measurement to compare with")
+BT_DECLARE_GROUP(static, BT_STATIC_FIELDS)
+
 #define BT_RIGS_FIELDS(F)                                                                          \
     F(GROUP, nose_drop, drop, OPTIONAL, 0, 0, 0, "Table 1", "drop test of the nose gear") \
     F(GROUP, main_drop, drop, OPTIONAL, 0, 0, 0, "Table 2", "drop test of one main gear") \
-    F(GROUP, hook_rebound, rebound, OPTIONAL, 0, 0, 0, "Table 3", "hook on a falling basket over a rotating disc")
+    F(GROUP, hook_rebound, rebound, OPTIONAL, 0, 0, 0, "Table 3", "hook on a falling basket over a rotating disc") \
+    F(GROUP, nose_static, static, OPTIONAL, 0, 0, 0, "", "static load over stroke of the nose gear") \
+    F(GROUP, main_static, static, OPTIONAL, 0, 0, 0, "", "static load over stroke of one main gear")
 BT_DECLARE_GROUP(rigs, BT_RIGS_FIELDS)
 // clang-format on
 
@@ -59,10 +90,15 @@ typedef enum bt_rig_kind {
     BT_RIG_NOSE_DROP,
     BT_RIG_MAIN_DROP,
     BT_RIG_HOOK_REBOUND,
+    BT_RIG_NOSE_STATIC,
+    BT_RIG_MAIN_STATIC,
     BT_RIG_COUNT
 } bt_rig_kind;
 
-extern const char* const bt_rig_keys[]; ///< "nose_drop", "main_drop", "hook_rebound", NULL
+extern const char* const bt_rig_keys[]; ///< "nose_drop", "main_drop", "hook_rebound", ..., NULL
+
+/// Whether a rig tests the nose gear; the hook's does not.
+bool bt_rig_is_nose(bt_rig_kind kind);
 
 /// One number that a rig reports.
 typedef struct bt_metric {
@@ -75,7 +111,7 @@ typedef struct bt_metric {
     bool accepted;        ///< no reference, or an error within its tolerance
 } bt_metric;
 
-enum { BT_METRIC_MAX = 8 };
+enum { BT_METRIC_MAX = 12 };
 
 typedef struct bt_rig_result {
     int metric_count;
@@ -110,8 +146,10 @@ BT_CHECKED bt_status bt_rig_run(bt_rig_kind kind, const bt_aircraft_params* airc
 ///
 /// Metrics: stroke_max_m; sinkage_max_m (of the dropped mass above the strut, from touchdown);
 /// tyre_compression_max_m; tyre_force_max_N; strut_force_max_N; drag_force_max_N; efficiency (work
-/// of the strut force over its peak times the stroke); spin_up_time_s (until 99 % of the belt's
-/// speed, NAN without belt or when it is not reached).
+/// done on the strut until its largest stroke, over peak force times that stroke); spin_up_time_s
+/// (until 99 % of the belt's speed, NAN without belt or when it is not reached). strut_energy_J
+/// (work done on the strut until its largest stroke); tyre_energy_J (most that the tyre stores);
+/// tyre_efficiency (that energy over its peak load times compression).
 ///
 /// @param gear      checked parameters of the leg (station and track do not matter here)
 /// @param drop      checked parameters of the test
@@ -124,6 +162,22 @@ BT_CHECKED bt_status bt_rig_run(bt_rig_kind kind, const bt_aircraft_params* airc
 BT_CHECKED bt_status bt_rig_run_drop(const bt_gear_params* gear, const bt_drop_params* drop,
                                      bt_rig_result* result, bt_rig_observer* observer, void* user,
                                      bt_diag* diag);
+
+/// Static test of one strut: a press shortens it slowly, then lets it out again. Nothing moves
+/// freely, so this is the law of the strut itself: gas or spring, stops, and friction fully
+/// developed against the motion.
+///
+///     F(s) = F_a(s) + F_l(s) + F_h(s, v) +- F_f(s)
+///
+/// Metrics: load_extended_N and load_compressed_N (while shortening, at both ends of the stroke),
+/// energy_J (work of the press), hysteresis_J (what it does not get back). Histories: stroke, load
+/// while shortening, load while extending.
+///
+/// Arguments as bt_rig_run_drop. BT_ERR_INPUT, said in diag, when the stroke leaves no gas volume.
+/// Tests: test_rigs.c, test_gear_drop.c.
+BT_CHECKED bt_status bt_rig_run_static(const bt_gear_params* gear, const bt_static_params* press,
+                                       bt_rig_result* result, bt_rig_observer* observer, void* user,
+                                       bt_diag* diag);
 
 /// Rebound of the hook: a basket sinks in guides with the hook on its joint and damper, until the
 /// head meets the rim of a rotating disc. The rim is a plane; its speed is given to the guides

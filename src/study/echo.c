@@ -181,6 +181,18 @@ static void write_conditions(FILE* out, const bt_study* study) {
         fputs("]\n", out);
 }
 
+/// Names of the measured curves, as comments: nothing that is computed depends on them, and this
+/// text may be read where the files are not.
+static void write_curves(FILE* out, const bt_study* study) {
+    for (int kind = 0; kind < BT_RIG_COUNT; ++kind)
+        for (int i = 0; i < study->rig_inputs[kind].curve_count; ++i) {
+            const char* path = study->rig_inputs[kind].curves[i].path;
+            const char* slash = strrchr(path, '/');
+            fprintf(out, "# rigs.%s.reference.curve: ", bt_rig_keys[kind]);
+            write_quoted(out, slash ? slash + 1 : path);
+        }
+}
+
 static void write_study(FILE* out, const bt_study* study, const bt_node* root) {
     fputs("title: ", out);
     write_quoted(out, study->title);
@@ -198,6 +210,7 @@ static void write_study(FILE* out, const bt_study* study, const bt_node* root) {
     write_conditions(out, study);
     fputs("rigs:\n", out);
     write_group(out, &bt_rigs_group, &study->rigs, 1, bt_node_child(root, "rigs"));
+    write_curves(out, study);
 }
 
 char* bt_study_echo(const bt_study* study, const bt_node* root) {

@@ -6,7 +6,8 @@
 enum { PATH_SIZE = 4096 };
 
 /// The part of the aircraft that each rig tests.
-static const char* const parts[BT_RIG_COUNT] = {"nose_gear", "main_gear", "hook"};
+static const char* const parts[BT_RIG_COUNT] = {"nose_gear", "main_gear", "hook", "nose_gear",
+                                                "main_gear"};
 
 // --- measured curves --------------------------------------------------------------------------
 
@@ -50,13 +51,26 @@ static void take_curve(bt_reader* reader, bt_document* names, const char* study_
     input->curves[input->curve_count++].where = node->where;
 }
 
+/// A key that is not there gets a value; the place is its mapping's.
+static void fill(bt_document* document, bt_node* mapping, const char* key, const char* value) {
+    if (!mapping || mapping->kind != BT_NODE_MAPPING || bt_node_child(mapping, key))
+        return;
+    bt_node* name = bt_document_node(document, BT_NODE_SCALAR, mapping->where, key, strlen(key));
+    bt_node* node =
+        bt_document_node(document, BT_NODE_SCALAR, mapping->where, value, strlen(value));
+    if (name && node)
+        bt_node_append(mapping, name, node);
+}
+
 void bt_rig_inputs_take(bt_reader* reader, bt_document* names, const char* study_path,
                         bt_node* root, bt_study* study) {
     const bt_node* rigs = bt_node_child(root, "rigs");
     for (int kind = 0; kind < BT_RIG_COUNT; ++kind) {
         bt_rig_input* input = &study->rig_inputs[kind];
-        const bt_node* rig = bt_node_child(rigs, bt_rig_keys[kind]);
+        bt_node* rig = bt_node_child(rigs, bt_rig_keys[kind]);
         input->given = rig != NULL;
+        if (bt_node_child(rig, "drop_height"))
+            fill(names, rig, "sink_speed", "0 m/s");
         const bt_node* curve = bt_node_take(bt_node_child(rig, "reference"), "curve");
         if (!curve)
             continue;
@@ -79,16 +93,52 @@ bool bt_rig_inputs_alone(const bt_node* root) {
 
 /// A length that says where a part stands: 0 where it is not given.
 static void place_at_origin(bt_document* document, bt_node* part, const char* key) {
-    if (part->kind != BT_NODE_MAPPING || bt_node_child(part, key))
-        return;
-    bt_node* name = bt_document_node(document, BT_NODE_SCALAR, part->where, key, strlen(key));
-    bt_node* value = bt_document_node(document, BT_NODE_SCALAR, part->where, "0 m", 3);
-    if (name && value)
-        bt_node_append(part, name, value);
+    fill(document, part, key, "0 m");
 }
 
-static void read_part(bt_reader* reader, bt_document* document, bt_node* part, int kind,
-                      bt_aircraft_params* aircraft) {
+/// A spring that is no gas needs none of the gas's keys, and no oil where no orifice is given.
+static void fill_spring(bt_document* document, bt_node* oleo) {
+    const bt_node* spring = bt_node_child(oleo, "spring");
+    if (!spring || strcmp(spring->text, "points") != 0)
+        return;
+    fill(document, oleo, "air_area", "0 m^2");
+    fill(document, oleo, "precharge", "0 Pa");
+    fill(document, oleo, "air_volume", "0 m^3");
+    if (!bt_node_child(oleo, "orifice_area") && !bt_node_child(oleo, "orifice_table"))
+        fill(document, oleo, "oil_area", "0 m^2");
+}
+
+/// What hangs on a strut plays no part on the press.
+static void fill_wheel(bt_document* document, bt_node* part) {
+    fill(document, part, "piston_mass", "1 kg");
+    fill(document, part, "wheel_mass", "1 kg");
+    fill(document, part, "wheel_inertia", "1 kg m^2");
+    if (part->kind != BT_NODE_MAPPING || bt_node_child(part, "tyre"))
+        return;
+    bt_node* name = bt_document_node(document, BT_NODE_SCALAR, part->where, "tyre", 4);
+    bt_node* tyre = bt_document_node(document, BT_NODE_MAPPING, part->where, "", 0);
+    if (!name || !tyre)
+        return;
+    bt_node_append(part, name, tyre);
+    fill(document, tyre, "radius", "1 m");
+    fill(document, tyre, "width", "1 m");
+}
+
+/// Without a drop of the leg only its strut is tested, whose oil may be left out.
+static void fill_strut(bt_document* document, const bt_node* root, bt_node* part, bool nose) {
+    const bt_node* rigs = bt_node_child(root, "rigs");
+    bt_node* oleo = bt_node_child(part, "oleo");
+    fill_spring(document, oleo);
+    if (bt_node_child(rigs, bt_rig_keys[nose ? BT_RIG_NOSE_DROP : BT_RIG_MAIN_DROP]) ||
+        !bt_node_child(rigs, bt_rig_keys[nose ? BT_RIG_NOSE_STATIC : BT_RIG_MAIN_STATIC]))
+        return;
+    fill_wheel(document, part);
+    if (!bt_node_child(oleo, "orifice_area") && !bt_node_child(oleo, "orifice_table"))
+        fill(document, oleo, "oil_area", "0 m^2");
+}
+
+static void read_part(bt_reader* reader, bt_document* document, const bt_node* root, bt_node* part,
+                      int kind, bt_aircraft_params* aircraft) {
     char path[64];
     bt_reader_join(path, sizeof path, "aircraft", parts[kind]);
     if (kind == BT_RIG_HOOK_REBOUND) {
@@ -100,9 +150,10 @@ static void read_part(bt_reader* reader, bt_document* document, bt_node* part, i
     place_at_origin(document, part, "station");
     place_at_origin(document, part, "half_track");
     place_at_origin(document, part, "underside");
+    fill_strut(document, root, part, bt_rig_is_nose((bt_rig_kind)kind));
     bt_reader_group(reader, &bt_gear_group,
-                    kind == BT_RIG_NOSE_DROP ? &aircraft->nose_gear : &aircraft->main_gear, path,
-                    part, NULL);
+                    bt_rig_is_nose((bt_rig_kind)kind) ? &aircraft->nose_gear : &aircraft->main_gear,
+                    path, part, NULL);
 }
 
 void bt_rig_inputs_read_parts(bt_reader* reader, bt_document* document, bt_node* root,
@@ -124,8 +175,10 @@ void bt_rig_inputs_read_parts(bt_reader* reader, bt_document* document, bt_node*
     for (int kind = 0; kind < BT_RIG_COUNT; ++kind) {
         bt_node* part = bt_node_child(aircraft, parts[kind]);
         const bt_node* rig = bt_node_child(bt_node_child(root, "rigs"), bt_rig_keys[kind]);
-        if (part)
-            read_part(reader, document, part, kind, model);
+        if (part && kind <= BT_RIG_HOOK_REBOUND) // the static rigs share the legs of the drops
+            read_part(reader, document, root, part, kind, model);
+        else if (part)
+            continue;
         else if (rig)
             bt_reader_error(reader, rig->key->where, "aircraft.%s: missing; rigs.%s tests it",
                             parts[kind], bt_rig_keys[kind]);

@@ -16,7 +16,8 @@ void bt_rig_inputs_take(bt_reader* reader, bt_document* names, const char* study
 bool bt_rig_inputs_alone(const bt_node* root);
 
 /// Reads the parts of the aircraft that the rigs of such a tree test; what places them on an
-/// aircraft is put at the origin where it is missing.
+/// aircraft is put at the origin where it is missing, and what the tests do not use (gas of a
+/// spring given by points; wheel and oil of a strut on the press) need not be given.
 void bt_rig_inputs_read_parts(bt_reader* reader, bt_document* document, bt_node* root,
                               bt_study* study);
 

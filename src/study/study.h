@@ -99,7 +99,7 @@ typedef struct bt_study {
     bt_condition conditions[BT_CONDITION_MAX];
     char* text;    ///< the study as one file: aircraft and deck included, --set applied,
                    ///< every key with the value used, in SI; reads back to the same bits (the
-                   ///< names of measured curves are left out)
+                   ///< names of measured curves are comments in it)
     uint64_t hash; ///< of what a campaign's runs depend on: model, axes and their bounds (or
                    ///< distributions), design, seed; not of the number of samples (a
                    ///< campaign may grow), threads, comments or later chapters

@@ -57,6 +57,17 @@ static void smooth_curve_has_a_continuous_slope(void** state) {
     }
 }
 
+static void slope_is_the_derivative_of_the_smooth_curve(void** state) {
+    (void)state;
+    bt_curve c;
+    bt_curve_make(&c, BT_CURVE_SMOOTH, 4, pin_x, pin_y);
+    const double h = 1e-6;
+    for (double at = 0.013; at < 0.6; at += 0.031)
+        BT_ASSERT_NEAR((bt_curve_value(&c, at + h) - bt_curve_value(&c, at - h)) / (2 * h),
+                       bt_curve_slope(&c, at), 1e-7, 1e-12);
+    assert_true(bt_curve_slope(&c, 9) == c.slope[3] && bt_curve_slope(&c, -1) == c.slope[0]);
+}
+
 static void smooth_curve_reproduces_a_straight_line(void** state) {
     (void)state;
     const double x[] = {0, 1, 3, 4}, y[] = {1, 3, 7, 9};
@@ -111,6 +122,7 @@ int main(void) {
         cmocka_unit_test(curve_holds_its_end_values_beyond_the_ends),
         cmocka_unit_test(smooth_curve_never_overshoots),
         cmocka_unit_test(smooth_curve_has_a_continuous_slope),
+        cmocka_unit_test(slope_is_the_derivative_of_the_smooth_curve),
         cmocka_unit_test(smooth_curve_reproduces_a_straight_line),
         cmocka_unit_test(stepped_curve_holds_a_row_until_the_next),
         cmocka_unit_test(integral_is_the_antiderivative),

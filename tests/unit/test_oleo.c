@@ -98,6 +98,65 @@ static void eq3_second_chamber_shares_the_pressure(void** state) {
     }
 }
 
+/// The second chamber with an exponent of its own: each polytrope holds, with stiff and with
+/// compressible oil; the same exponent twice is the closed form.
+static void eq3_second_chamber_may_have_its_own_exponent(void** state) {
+    (void)state;
+    bt_oleo_params p = main_leg();
+    p.high_precharge_Pa = 7.7e6;
+    p.high_volume_m3 = 1.7e-3;
+    p.high_exponent = 1.3;
+    for (int soft = 0; soft < 2; ++soft) {
+        p.oil_volume_m3 = soft ? 8e-3 : 0;
+        const bt_oleo o = prepared(&p);
+        const double kappa = p.oil_volume_m3 / p.oil_bulk_modulus_Pa;
+        for (double s = o.second_stroke + 1e-6; s < p.stroke_max_m; s += 0.02) {
+            const double pressure = bt_oleo_gas_pressure(&o, s);
+            const double v1 = p.air_volume_m3 * pow(p.precharge_Pa / pressure, 1 / p.gas_exponent);
+            const double v2 = p.high_volume_m3 * pow(p.high_precharge_Pa / pressure, 1 / 1.3);
+            BT_ASSERT_NEAR(v1 + v2,
+                           p.air_volume_m3 + p.high_volume_m3 - p.air_area_m2 * s +
+                               kappa * (pressure - p.precharge_Pa),
+                           1e-12, 0);
+        }
+    }
+    p.oil_volume_m3 = 0;
+    p.high_exponent = p.gas_exponent * (1 + 1e-12);
+    const bt_oleo near = prepared(&p);
+    p.high_exponent = 0;
+    const bt_oleo alike = prepared(&p);
+    BT_ASSERT_NEAR(bt_oleo_gas_force(&near, 0.55), bt_oleo_gas_force(&alike, 0.55), 1e-10, 0);
+}
+
+/// A leaf spring: no gas, no oil.
+static bt_oleo_params leaf(void) {
+    bt_oleo_params p = main_leg();
+    p.spring = BT_SPRING_POINTS;
+    p.spring_points = (bt_table){2, {0, 0.5}, {0, 15e3}};
+    p.air_area_m2 = p.precharge_Pa = p.air_volume_m3 = p.oil_area_m2 = 0;
+    p.orifice_table.count = 0;
+    return p;
+}
+
+static void spring_by_points_is_the_curve_and_its_last_slope(void** state) {
+    (void)state;
+    bt_oleo_params p = leaf();
+    const bt_oleo straight = prepared(&p);
+    for (double s = 0; s < 0.6; s += 0.07) {
+        BT_ASSERT_NEAR(bt_oleo_force(&straight, s, 3), 30e3 * s, 1e-13, 1e-9);
+        BT_ASSERT_NEAR(bt_oleo_energy(&straight, s), 15e3 * s * s, 1e-13, 1e-9);
+    }
+    p.spring_points = (bt_table){3, {0, 0.2, 0.4}, {5e3, 20e3, 60e3}};
+    const bt_oleo curved = prepared(&p);
+    for (int i = 0; i < 3; ++i)
+        BT_ASSERT_NEAR(bt_oleo_gas_force(&curved, p.spring_points.x[i]), p.spring_points.y[i],
+                       1e-14, 0);
+    BT_ASSERT_NEAR(bt_oleo_force(&curved, 0, 0), 5e3, 1e-14, 0); // the preload
+    assert_true(bt_oleo_hanging_stroke(&curved, 0) < 0);         // holds it on its stop
+    for (double s = 0.01; s < 0.59; s += 0.02) // the cubic's energy has a fourth power
+        BT_ASSERT_NEAR(energy_slope(&curved, s), bt_oleo_force(&curved, s, 0), 1e-2, 0);
+}
+
 static void eq3_compressible_oil_gives_the_gas_more_room(void** state) {
     (void)state;
     bt_oleo_params p = main_leg();
@@ -120,7 +179,8 @@ static void eq3_compressible_oil_gives_the_gas_more_room(void** state) {
 static void eq3_force_is_the_gradient_of_the_energy(void** state) {
     (void)state;
     bt_oleo_params p = main_leg();
-    for (int variant = 0; variant < 4; ++variant) {
+    for (int variant = 0; variant < 8; ++variant) {
+        p.high_exponent = variant & 4 ? 1.3 : 0;
         p.high_precharge_Pa = variant & 1 ? 7.7e6 : 0;
         p.high_volume_m3 = variant & 1 ? 1.7e-3 : 0;
         p.oil_volume_m3 = variant & 2 ? 8e-3 : 0;
@@ -177,6 +237,27 @@ static void eq4_side_orifice_adds_its_own_term_in_each_direction(void** state) {
                    9 * c / (100e-6 * 100e-6), 1e-10, 0);
     BT_ASSERT_NEAR(bt_oleo_oil_force(&with, 0.2, -3) - bt_oleo_oil_force(&without, 0.2, -3),
                    -9 * c / (22e-6 * 22e-6), 1e-10, 0);
+}
+
+/// A check valve that is open in compression: only the other direction is given.
+static void eq4_side_orifice_left_out_flows_freely(void** state) {
+    (void)state;
+    bt_oleo_params p = main_leg();
+    const bt_oleo without = prepared(&p);
+    p.side_area_m2 = 6280e-6;
+    p.side_orifice_extension_m2 = 22e-6;
+    const bt_oleo with = prepared(&p);
+    BT_ASSERT_NEAR(bt_oleo_oil_force(&with, 0.2, 3), bt_oleo_oil_force(&without, 0.2, 3), 0, 0);
+    assert_true(bt_oleo_oil_force(&with, 0.2, -3) < 2 * bt_oleo_oil_force(&without, 0.2, -3));
+}
+
+static void eq4_no_oil_no_damping(void** state) {
+    (void)state;
+    bt_oleo_params p = main_leg();
+    p.oil_area_m2 = 0;
+    p.orifice_table.count = 0;
+    const bt_oleo o = prepared(&p);
+    assert_true(bt_oleo_oil_force(&o, 0.2, 3) == 0 && bt_oleo_oil_force(&o, 0.2, -3) == 0);
 }
 
 static void eq4_orifice_law_is_as_asked(void** state) {
@@ -379,6 +460,37 @@ static void check_refuses_missing_and_double_orifices(void** state) {
     assert_int_equal(errors_of(&p).count, 1);
 }
 
+static void check_accepts_a_spring_without_gas_and_refuses_a_gas_without_keys(void** state) {
+    (void)state;
+    bt_oleo_params p = leaf();
+    assert_int_equal(errors_of(&p).count, 0);
+    p.spring = BT_SPRING_GAS;
+    const seen s = errors_of(&p);
+    assert_int_equal(s.count, 3);
+    assert_string_equal(s.text[0], "main_gear.oleo.air_area: needed above 0 where spring is gas");
+}
+
+static void check_refuses_spring_points_that_fall_or_begin_late(void** state) {
+    (void)state;
+    static const struct {
+        bt_table rows;
+        const char* says;
+    } cases[] = {
+        {{1, {0}, {1e3}}, "two rows at least"},
+        {{2, {0.01, 0.1}, {1e3, 2e3}}, "must begin at stroke 0"},
+        {{3, {0, 0.2, 0.1}, {1e3, 2e3, 3e3}}, "must increase from row to row"},
+        {{3, {0, 0.1, 0.2}, {1e3, 3e3, 2e3}}, "decreases"},
+        {{2, {0, 0.1}, {-1, 3e3}}, "below 0"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        bt_oleo_params p = leaf();
+        p.spring_points = cases[i].rows;
+        const seen s = errors_of(&p);
+        assert_int_equal(s.count, 1);
+        assert_non_null(strstr(s.text[0], cases[i].says));
+    }
+}
+
 static void check_refuses_half_a_second_chamber(void** state) {
     (void)state;
     bt_oleo_params p = main_leg();
@@ -386,6 +498,9 @@ static void check_refuses_half_a_second_chamber(void** state) {
     assert_int_equal(errors_of(&p).count, 1);
     p.high_volume_m3 = 1e-3;
     p.high_precharge_Pa = 2e6;
+    assert_int_equal(errors_of(&p).count, 1);
+    p.high_precharge_Pa = 7e6;
+    p.high_exponent = 0.9;
     assert_int_equal(errors_of(&p).count, 1);
 }
 
@@ -406,11 +521,15 @@ int main(void) {
         cmocka_unit_test(eq3_no_gas_volume_left_is_not_finite),
         cmocka_unit_test(eq3_second_chamber_is_continuous_where_it_lifts),
         cmocka_unit_test(eq3_second_chamber_shares_the_pressure),
+        cmocka_unit_test(eq3_second_chamber_may_have_its_own_exponent),
+        cmocka_unit_test(spring_by_points_is_the_curve_and_its_last_slope),
         cmocka_unit_test(eq3_compressible_oil_gives_the_gas_more_room),
         cmocka_unit_test(eq3_force_is_the_gradient_of_the_energy),
         cmocka_unit_test(eq4_oil_force_is_quadratic_and_odd_in_the_rate),
         cmocka_unit_test(eq4_rebound_orifice_is_a_ratio_or_an_area),
         cmocka_unit_test(eq4_side_orifice_adds_its_own_term_in_each_direction),
+        cmocka_unit_test(eq4_side_orifice_left_out_flows_freely),
+        cmocka_unit_test(eq4_no_oil_no_damping),
         cmocka_unit_test(eq4_orifice_law_is_as_asked),
         cmocka_unit_test(eq5_limit_is_zero_inside_and_linear_outside),
         cmocka_unit_test(eq5_stop_damping_never_makes_a_stop_pull),
@@ -424,6 +543,8 @@ int main(void) {
         cmocka_unit_test(check_refuses_pressure_below_ambient),
         cmocka_unit_test(check_refuses_a_metering_table_that_goes_back),
         cmocka_unit_test(check_refuses_missing_and_double_orifices),
+        cmocka_unit_test(check_accepts_a_spring_without_gas_and_refuses_a_gas_without_keys),
+        cmocka_unit_test(check_refuses_spring_points_that_fall_or_begin_late),
         cmocka_unit_test(check_refuses_half_a_second_chamber),
         cmocka_unit_test(check_refuses_an_axle_that_passes_its_bearing),
     };

@@ -166,6 +166,97 @@ static void reference_gives_the_error_in_percent(void** state) {
     assert_false(r.metrics[1].accepted);
 }
 
+/// A value's own tolerance goes before the common one.
+static void reference_may_have_its_own_tolerance(void** state) {
+    (void)state;
+    const bt_gear_params g = main_gear();
+    bt_drop_params d = main_drop();
+    bt_rig_result r = dropped(&g, &d);
+    d.reference.stroke_max_m = r.metrics[0].value / 1.02;
+    d.reference.stroke_max_tolerance = 0.01;
+    r = dropped(&g, &d);
+    assert_false(r.metrics[0].accepted);
+    assert_true(r.metrics[0].tolerance == 0.01);
+}
+
+/// What the fall brings in is in strut and tyre when the mass stands still; the wheel swings on.
+static void energies_add_up_to_that_of_the_fall(void** state) {
+    (void)state;
+    bt_gear_params g = main_gear();
+    bt_drop_params d = main_drop();
+    g.tyre.damping_Npmps = 0;
+    const bt_rig_result r = dropped(&g, &d);
+    const double in = 0.5 * d.mass_kg * d.sink_speed_mps * d.sink_speed_mps; // lift carries all
+    const double strut = metric(&r, "strut_energy_J"), tyre = metric(&r, "tyre_energy_J");
+    assert_true(strut < in && tyre < in && strut + tyre > in); // the tyre is fullest before
+    assert_true(strut + tyre < 1.1 * in);
+    BT_ASSERT_NEAR(metric(&r, "efficiency"),
+                   strut / (metric(&r, "strut_force_max_N") * metric(&r, "stroke_max_m")), 1e-12,
+                   0);
+}
+
+/// Seal friction that changes sign within 1 mm/s stays stable at the usual step.
+static void drop_with_friction_converges_with_the_step(void** state) {
+    (void)state;
+    bt_gear_params g = main_gear();
+    bt_drop_params d = main_drop();
+    g.oleo.seal_coefficient = 0.07;
+    g.oleo.friction_speed_mps = 1e-3;
+    const bt_rig_result usual = dropped(&g, &d);
+    d.step_s = 1e-5;
+    const bt_rig_result fine = dropped(&g, &d);
+    for (int i = 0; i < 5; ++i)
+        BT_ASSERT_NEAR(usual.metrics[i].value, fine.metrics[i].value, 5e-4, 0);
+}
+
+static bt_rig_result pressed(const bt_gear_params* g, const bt_static_params* p,
+                             bt_rig_observer* observer, void* user) {
+    bt_rig_result r;
+    assert_int_equal(bt_rig_run_static(g, p, &r, observer, user, NULL), BT_OK);
+    return r;
+}
+
+/// On the press the strut is its gas: loads at both ends, and the gas's energy between them.
+static void press_finds_the_gas_law(void** state) {
+    (void)state;
+    const bt_gear_params g = main_gear();
+    bt_static_params p;
+    bt_group_set_defaults(&bt_static_group, &p);
+    const bt_rig_result r = pressed(&g, &p, NULL, NULL);
+    bt_oleo o;
+    bt_oleo_prepare(&g.oleo, &o);
+    BT_ASSERT_NEAR(metric(&r, "load_extended_N"), bt_oleo_gas_force(&o, 0), 1e-4, 0);
+    BT_ASSERT_NEAR(metric(&r, "load_compressed_N"), bt_oleo_gas_force(&o, 0.6), 1e-4, 0);
+    BT_ASSERT_NEAR(metric(&r, "energy_J"), bt_oleo_gas_energy(&o, 0.6), 1e-4, 0);
+    assert_true(metric(&r, "hysteresis_J") < 1); // the oil at 1 mm/s
+    p.stroke_m = 0.3;
+    const bt_rig_result half = pressed(&g, &p, NULL, NULL);
+    BT_ASSERT_NEAR(metric(&half, "load_compressed_N"), bt_oleo_gas_force(&o, 0.3), 1e-4, 0);
+}
+
+/// Friction of the seals is there in full at any speed: twice its work is not given back.
+static void press_shows_the_friction_as_hysteresis(void** state) {
+    (void)state;
+    bt_gear_params g = main_gear();
+    bt_static_params p;
+    bt_group_set_defaults(&bt_static_group, &p);
+    g.oleo.seal_friction_N = 2e3;
+    const bt_rig_result r = pressed(&g, &p, NULL, NULL);
+    BT_ASSERT_NEAR(metric(&r, "hysteresis_J"), 2 * 2e3 * 0.6, 1e-3, 0);
+}
+
+static void press_beyond_the_gas_is_refused(void** state) {
+    (void)state;
+    const bt_gear_params g = main_gear();
+    bt_static_params p;
+    bt_rig_result r;
+    bt_diag diag = {0};
+    bt_group_set_defaults(&bt_static_group, &p);
+    p.stroke_m = 1.1 * g.oleo.air_volume_m3 / g.oleo.air_area_m2;
+    assert_int_equal(bt_rig_run_static(&g, &p, &r, NULL, NULL, &diag), BT_ERR_INPUT);
+    assert_int_equal(diag.errors, 1);
+}
+
 static void drop_mass_below_the_leg_is_refused(void** state) {
     (void)state;
     const bt_gear_params g = main_gear();
@@ -304,6 +395,12 @@ int main(void) {
         cmocka_unit_test(drop_of_the_reference_legs_agrees_with_another_code),
         cmocka_unit_test(belt_spins_the_wheel_up_and_drags),
         cmocka_unit_test(reference_gives_the_error_in_percent),
+        cmocka_unit_test(reference_may_have_its_own_tolerance),
+        cmocka_unit_test(energies_add_up_to_that_of_the_fall),
+        cmocka_unit_test(drop_with_friction_converges_with_the_step),
+        cmocka_unit_test(press_finds_the_gas_law),
+        cmocka_unit_test(press_shows_the_friction_as_hysteresis),
+        cmocka_unit_test(press_beyond_the_gas_is_refused),
         cmocka_unit_test(drop_mass_below_the_leg_is_refused),
         cmocka_unit_test(rebound_reports_one_bounce),
         cmocka_unit_test(rebound_height_does_not_depend_on_the_rim_speed),

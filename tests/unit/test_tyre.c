@@ -141,6 +141,41 @@ static void damping_takes_energy_and_never_pulls(void** state) {
 
 /* Enveloping contact */
 
+static void stiffness_is_the_slope_of_the_load(void** state) {
+    (void)state;
+    bt_tyre_params p = goodyear_tyre();
+    for (int law = 0; law <= BT_TYRE_POWER; ++law) {
+        p.law = law;
+        const bt_tyre t = prepared(&p);
+        const double h = 1e-6;
+        for (double d = 2.1e-3; d < 0.08; d += 3.7e-3)
+            BT_ASSERT_NEAR((bt_tyre_load(&t, d + h) - bt_tyre_load(&t, d - h)) / (2 * h),
+                           bt_tyre_stiffness(&t, d), 1e-4, 0);
+        assert_true(bt_tyre_stiffness(&t, 0) == 0);
+    }
+}
+
+/// c = 2 zeta sqrt(m f'(d)): nothing at first touch of a curve that begins level, and the share of
+/// critical damping of that mass on a tyre of one slope.
+static void damping_ratio_is_a_share_of_the_critical_damping(void** state) {
+    (void)state;
+    bt_tyre_params p = defaults();
+    p.law = BT_TYRE_POWER;
+    p.power_deflection_m = 0.1;
+    p.power_load_N = 1e5; // 1 MN/m
+    p.power_exponent = 1;
+    p.damping_Npmps = 0;
+    p.damping_ratio = 0.15;
+    p.damping_mass_kg = 400;
+    bt_tyre t = prepared(&p);
+    const double c = 2 * 0.15 * sqrt(400 * 1e6);
+    BT_ASSERT_NEAR(bt_tyre_normal_force(&t, 0.05, 2), 5e4 + 2 * c, 1e-13, 0);
+    BT_ASSERT_NEAR(bt_tyre_normal_force(&t, 0.05, -1), 5e4 - c, 1e-13, 0);
+    p.power_exponent = 2;
+    t = prepared(&p);
+    assert_true(bt_tyre_normal_force(&t, 1e-9, 5) < 10);
+}
+
 static void eq7_equivalent_deflection_inverts_the_segment(void** state) {
     (void)state;
     for (double d = 1e-6; d < 0.9; d *= 1.3)
@@ -434,6 +469,8 @@ int main(void) {
         cmocka_unit_test(load_is_that_of_all_tyres),
         cmocka_unit_test(load_is_the_gradient_of_the_energy),
         cmocka_unit_test(damping_takes_energy_and_never_pulls),
+        cmocka_unit_test(stiffness_is_the_slope_of_the_load),
+        cmocka_unit_test(damping_ratio_is_a_share_of_the_critical_damping),
         cmocka_unit_test(eq7_equivalent_deflection_inverts_the_segment),
         cmocka_unit_test(eq6_flat_deck_gives_the_curve_exactly_for_any_number_of_strips),
         cmocka_unit_test(eq6_off_the_ground_there_is_nothing),
