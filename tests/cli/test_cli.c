@@ -1,84 +1,15 @@
 /// What a user types: exit codes, help, messages, and the whole chain at small size.
-#define _GNU_SOURCE
-#include "near.h"
-
-#include "campaign/directory.h"
-#include "toy_study.h"
+#include "cli_fixture.h"
 
 #include <fcntl.h>
 #include <signal.h>
-#include <sys/wait.h>
 #include <time.h>
 
-#define REFERENCE "studies/reference/study.yaml"
 /* A coarse cable and few landings: the whole chain in seconds. */
 #define SMALL                                                                                      \
     "--set deck.cable.mesh.fine_length='0.2 m' --set deck.cable.mesh.medium_length='0.3 m' "       \
     "--set deck.cable.mesh.coarse_length='0.6 m' --set campaign.samples=96 "                       \
     "--set reliability.samples=20000 --set reliability.truth_runs=2 "
-
-typedef struct fixture {
-    char* directory;
-    char *out, *err; ///< of the last command
-} fixture;
-
-static int setup(void** state) {
-    fixture* f = calloc(1, sizeof *f);
-    f->directory = toy_directory();
-    *state = f;
-    return 0;
-}
-
-static int teardown(void** state) {
-    fixture* f = *state;
-    toy_directory_remove(f->directory);
-    free(f->out);
-    free(f->err);
-    free(f);
-    return 0;
-}
-
-static char* read_text(const fixture* f, const char* name) {
-    char path[4096];
-    char* text = NULL;
-    assert_int_equal(bt_file_read(toy_path(path, f->directory, name), &text, NULL, NULL), BT_OK);
-    return text;
-}
-
-/// Runs `bolter ARGUMENTS` through the shell, "%" standing for the test's directory; returns the
-/// exit code.
-static int bolter(fixture* f, const char* arguments) {
-    const char* program = getenv("BOLTER");
-    char* command = NULL;
-    size_t size = 0;
-    FILE* text = open_memstream(&command, &size);
-    fprintf(text, "'%s' ", program ? program : "build/bolter");
-    for (const char* c = arguments; *c; ++c)
-        if (*c == '%')
-            fputs(f->directory, text);
-        else
-            fputc(*c, text);
-    fprintf(text, " >'%s/out' 2>'%s/err'", f->directory, f->directory);
-    fclose(text);
-    const int code = system(command);
-    free(command);
-    free(f->out);
-    free(f->err);
-    f->out = read_text(f, "out");
-    f->err = read_text(f, "err");
-    return WIFEXITED(code) ? WEXITSTATUS(code) : -1;
-}
-
-static void write_file(const fixture* f, const char* name, const char* text) {
-    char path[4096];
-    assert_int_equal(bt_file_write(toy_path(path, f->directory, name), text, strlen(text), NULL),
-                     BT_OK);
-}
-
-static void assert_has(const char* text, const char* part) {
-    if (!strstr(text, part))
-        fail_msg("\"%s\" is not in:\n%s", part, text);
-}
 
 /// The number after "key": in a JSON text.
 static double json_number(const char* text, const char* key) {
@@ -322,8 +253,6 @@ static void a_second_process_is_kept_out_and_an_interrupt_loses_nothing(void** s
     const double done = json_number(f->out, "done");
     assert_true(done >= 1 && done < 3000);
 }
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 
 int main(void) {
     const struct CMUnitTest tests[] = {

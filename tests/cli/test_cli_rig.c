@@ -1,76 +1,7 @@
 /// `bolter rig` as a user types it, and what `bolter check` says of bad test data.
-#define _GNU_SOURCE
-#include "near.h"
+#include "cli_fixture.h"
 
-#include "campaign/directory.h"
-#include "toy_study.h"
-
-#include <sys/wait.h>
-
-#define REFERENCE "studies/reference/study.yaml"
 #define TR1154 "studies/rigs/tr1154.yaml"
-
-typedef struct fixture {
-    char* directory;
-    char *out, *err; ///< of the last command
-} fixture;
-
-static int setup(void** state) {
-    fixture* f = calloc(1, sizeof *f);
-    f->directory = toy_directory();
-    *state = f;
-    return 0;
-}
-
-static int teardown(void** state) {
-    fixture* f = *state;
-    toy_directory_remove(f->directory);
-    free(f->out);
-    free(f->err);
-    free(f);
-    return 0;
-}
-
-static char* read_text(const fixture* f, const char* name) {
-    char path[4096];
-    char* text = NULL;
-    assert_int_equal(bt_file_read(toy_path(path, f->directory, name), &text, NULL, NULL), BT_OK);
-    return text;
-}
-
-/// Runs `bolter ARGUMENTS` through the shell, "%" standing for the test's directory.
-static int bolter(fixture* f, const char* arguments) {
-    const char* program = getenv("BOLTER");
-    char* command = NULL;
-    size_t size = 0;
-    FILE* text = open_memstream(&command, &size);
-    fprintf(text, "'%s' ", program ? program : "build/bolter");
-    for (const char* c = arguments; *c; ++c)
-        if (*c == '%')
-            fputs(f->directory, text);
-        else
-            fputc(*c, text);
-    fprintf(text, " >'%s/out' 2>'%s/err'", f->directory, f->directory);
-    fclose(text);
-    const int code = system(command);
-    free(command);
-    free(f->out);
-    free(f->err);
-    f->out = read_text(f, "out");
-    f->err = read_text(f, "err");
-    return WIFEXITED(code) ? WEXITSTATUS(code) : -1;
-}
-
-static void write_file(const fixture* f, const char* name, const char* text) {
-    char path[4096];
-    assert_int_equal(bt_file_write(toy_path(path, f->directory, name), text, strlen(text), NULL),
-                     BT_OK);
-}
-
-static void assert_has(const char* text, const char* part) {
-    if (!strstr(text, part))
-        fail_msg("\"%s\" is not in:\n%s", part, text);
-}
 
 /// The TR 1154 file with one line replaced (the first that has `key`), as rig.yaml.
 static void write_spoilt(const fixture* f, const char* key, const char* line) {
@@ -126,6 +57,43 @@ static void wrong_use_is_exit_code_2(void** state) {
     assert_int_equal(bolter(f, "rig nose-drop"), 2);
 }
 
+static void static_rig_prints_its_points_beside_the_measured_ones(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "rig nose-static studies/rigs/currey.yaml -o %/x"), 0);
+    assert_has(f->out, "  at stroke_m 0.39423");
+    assert_has(f->out, "363495    -2.87 %      4.0 %  yes");
+    assert_has(f->out, "20 of 20 points within 4 %, largest error 3.54 %");
+    free(read_text(f, "x/figures/nose_static_strut.csv"));
+    assert_int_equal(bolter(f, "rig nose-static studies/rigs/currey.yaml --json -o %/x.h5"), 0);
+    assert_has(f->out, "\"points\": [");
+}
+
+/// Calibration against a static curve: the fit of currey_fit.yaml.
+static void static_curve_can_be_calibrated(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "calibrate studies/rigs/currey.yaml studies/rigs/currey_fit.yaml "
+                               "-o %/fitted.yaml"),
+                     0);
+    assert_has(f->out, "currey.csv of nose_static");
+    assert_has(f->out, "NOT identified");
+    assert_int_equal(
+        bolter(f, "rig nose-static studies/rigs/currey.yaml --set @%/fitted.yaml -o %/x"), 0);
+    assert_has(f->out, "rms difference 2817");
+}
+
+static void names_of_measured_curves_stay_in_the_echo(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "rig nose-static studies/rigs/currey.yaml -o %/x.h5"), 0);
+    char path[4096];
+    char* history = NULL;
+    size_t size = 0;
+    assert_int_equal(bt_file_read(toy_path(path, f->directory, "x.h5"), &history, &size, NULL),
+                     BT_OK);
+    static const char line[] = "# rigs.nose_static.reference.curve: \"currey.csv\"";
+    assert_non_null(memmem(history, size, line, sizeof line - 1));
+    free(history);
+}
+
 static void rig_that_the_study_lacks_is_exit_code_3(void** state) {
     fixture* f = *state;
     assert_int_equal(bolter(f, "rig nose-drop " TR1154 " -o %/x"), 3);
@@ -157,6 +125,20 @@ static void bad_gear_is_refused_with_its_place(void** state) {
                    "rig.yaml:21:22: error: aircraft.main_gear.oleo.orifice_table", "must increase");
     assert_refused(f, "      air_volume:", "      air_volume: 0.5 L",
                    "rig.yaml:18:19: error: aircraft.main_gear.oleo.air_volume", "swept volume");
+}
+
+static void drop_height_beside_a_sink_speed_is_refused(void** state) {
+    fixture* f = *state;
+    assert_refused(f, "    lift_ratio: 1", "    drop_height: 1 ft",
+                   "rig.yaml:39:18: error: rigs.main_drop.drop_height", "give one of them");
+}
+
+static void spring_points_that_fall_are_refused_with_their_place(void** state) {
+    fixture* f = *state;
+    assert_refused(f, "      orifice_area:",
+                   "      orifice_area: 50 mm^2\n      spring: points\n"
+                   "      spring_points: [[0 mm, 9 kN], [20 mm, 8 kN]]",
+                   "rig.yaml:23:22: error: aircraft.main_gear.oleo.spring_points", "decreases");
 }
 
 static void precharge_below_ambient_is_refused_with_its_place(void** state) {
@@ -224,16 +206,19 @@ static void measured_curve_that_is_not_there_is_exit_code_5(void** state) {
     assert_has(f->err, "none.csv");
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(rig_prints_metrics_beside_their_references),
         TEST(rig_prints_the_promised_json_keys),
         TEST(wrong_use_is_exit_code_2),
+        TEST(static_rig_prints_its_points_beside_the_measured_ones),
+        TEST(static_curve_can_be_calibrated),
+        TEST(names_of_measured_curves_stay_in_the_echo),
         TEST(rig_that_the_study_lacks_is_exit_code_3),
         TEST(rig_file_is_no_study_of_landings),
         TEST(bad_gear_is_refused_with_its_place),
+        TEST(drop_height_beside_a_sink_speed_is_refused),
+        TEST(spring_points_that_fall_are_refused_with_their_place),
         TEST(precharge_below_ambient_is_refused_with_its_place),
         TEST(tyre_curve_that_decreases_is_refused_with_its_place),
         TEST(drop_mass_below_the_leg_is_refused_with_its_place),

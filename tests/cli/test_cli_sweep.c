@@ -1,83 +1,9 @@
 /// `bolter sweep`, `bolter calibrate` and `--set @FILE` as a user types them.
-#define _GNU_SOURCE
-#include "near.h"
+#include "cli_fixture.h"
 
-#include "campaign/directory.h"
-#include "toy_study.h"
-
-#include <sys/wait.h>
-
-#define REFERENCE "studies/reference/study.yaml"
 #define COARSE                                                                                     \
     "--set deck.cable.mesh.fine_length='0.6 m' --set deck.cable.mesh.medium_length='0.6 m' "       \
     "--set deck.cable.mesh.coarse_length='0.6 m' "
-
-typedef struct fixture {
-    char* directory;
-    char *out, *err; ///< of the last command
-} fixture;
-
-static int setup(void** state) {
-    fixture* f = calloc(1, sizeof *f);
-    f->directory = toy_directory();
-    *state = f;
-    return 0;
-}
-
-static int teardown(void** state) {
-    fixture* f = *state;
-    toy_directory_remove(f->directory);
-    free(f->out);
-    free(f->err);
-    free(f);
-    return 0;
-}
-
-static char* read_text(const fixture* f, const char* name) {
-    char path[4096];
-    char* text = NULL;
-    assert_int_equal(bt_file_read(toy_path(path, f->directory, name), &text, NULL, NULL), BT_OK);
-    return text;
-}
-
-/// Runs `bolter ARGUMENTS` through the shell, "%" standing for the test's directory.
-static int bolter(fixture* f, const char* arguments) {
-    const char* program = getenv("BOLTER");
-    char* command = NULL;
-    size_t size = 0;
-    FILE* text = open_memstream(&command, &size);
-    fprintf(text, "'%s' ", program ? program : "build/bolter");
-    for (const char* c = arguments; *c; ++c)
-        if (*c == '%')
-            fputs(f->directory, text);
-        else
-            fputc(*c, text);
-    fprintf(text, " >'%s/out' 2>'%s/err'", f->directory, f->directory);
-    fclose(text);
-    const int code = system(command);
-    free(command);
-    free(f->out);
-    free(f->err);
-    f->out = read_text(f, "out");
-    f->err = read_text(f, "err");
-    return WIFEXITED(code) ? WEXITSTATUS(code) : -1;
-}
-
-static void write_file(const fixture* f, const char* name, const char* text) {
-    char path[4096];
-    assert_int_equal(bt_file_write(toy_path(path, f->directory, name), text, strlen(text), NULL),
-                     BT_OK);
-}
-
-static void assert_has(const char* text, const char* part) {
-    if (!strstr(text, part))
-        fail_msg("\"%s\" is not in:\n%s", part, text);
-}
-
-static bool exists(const fixture* f, const char* name) {
-    char path[4096];
-    return access(toy_path(path, f->directory, name), F_OK) == 0;
-}
 
 static void sweep_draws_the_papers_three_figures(void** state) {
     fixture* f = *state;
