@@ -353,7 +353,8 @@ double bt_cable_stable_step(const bt_cable_model* model) {
         const double per_tilt = model->inverse_tilt[i];
         const double per_spin = model->inverse_spin[i] + per_tilt;
         const double before = model->inverse_spacing[i], after = model->inverse_spacing[i + 1];
-        const double per_l = fmax(before > 0 ? before : after, after > 0 ? after : before);
+        /* the spring of a held end is that of half a joint: as of neighbours alike */
+        const double per_l = fmax(before > 0 ? before : 1 / l, after > 0 ? after : 1 / l);
         step = fmin(step, step_limit(4 * per_l * ka * per_m, 4 * per_l * ca * per_m));
         step = fmin(step, step_limit(4 * per_l * d->twist_stiffness_Nm2 * per_spin + 1e-30,
                                      4 * per_l * d->twist_damping_Nm2s * per_spin));

@@ -29,16 +29,21 @@ static inline bt_cable_def rope_def(int count, double length_m) {
     return def;
 }
 
+/// Opens a rope of def->count segments of the given unstretched lengths.
+static inline void rope_open_mesh(rope* r, bt_cable_def* def, const double* segment_m) {
+    def->length_m = segment_m;
+    assert_int_equal(bt_arena_create(&r->arena, bt_cable_memory(def->count, 1)), BT_OK);
+    assert_int_equal(bt_cable_model_init(&r->model, def, &r->arena, NULL), BT_OK);
+    assert_int_equal(bt_cable_state_init(&r->model, &r->state, &r->arena), BT_OK);
+}
+
 /// Opens a rope of equal segments; total unstretched length `length_m`.
 static inline void rope_open(rope* r, bt_cable_def* def, double length_m) {
     double* length = malloc(sizeof(double) * (size_t)def->count);
     assert_non_null(length);
     for (int i = 0; i < def->count; ++i)
         length[i] = length_m / def->count;
-    def->length_m = length;
-    assert_int_equal(bt_arena_create(&r->arena, bt_cable_memory(def->count, 1)), BT_OK);
-    assert_int_equal(bt_cable_model_init(&r->model, def, &r->arena, NULL), BT_OK);
-    assert_int_equal(bt_cable_state_init(&r->model, &r->state, &r->arena), BT_OK);
+    rope_open_mesh(r, def, length);
     free(length);
 }
 
