@@ -20,6 +20,7 @@ void bt_tracker_start(bt_tracker* tracker, bt_landing_result* result, double cab
                       double friction) {
     *tracker =
         (bt_tracker){.margin_m = NAN,
+                     .last_gap_m = NAN,
                      .friction_rise_m = cable_radius_m * friction / sqrt(1 + friction * friction),
                      .first_contact_s = NAN,
                      .catch_s = NAN};
@@ -58,6 +59,15 @@ void bt_tracker_deck(bt_tracker* tracker, bt_landing_result* result, double shoe
     }
 }
 
+/// Height of the cable above the lip where the lip will pass it: carried on along a straight line
+/// over the gap that is left.
+static double rise_at_passing(const bt_tracker* tracker, double gap_m, double rise_m) {
+    const double closed = tracker->last_gap_m - gap_m;
+    if (!(closed > 0 && gap_m > 0))
+        return rise_m;
+    return rise_m + gap_m * (rise_m - tracker->last_rise_m) / closed;
+}
+
 void bt_tracker_cable(bt_tracker* tracker, bt_landing_result* result, double time_s,
                       const double zone_force_N[BT_ZONE_COUNT], const double lip_m[3],
                       const double cable_m[3]) {
@@ -67,11 +77,14 @@ void bt_tracker_cable(bt_tracker* tracker, bt_landing_result* result, double tim
 
     if (any && isnan(tracker->first_contact_s))
         tracker->first_contact_s = result->time_of_contact_s = time_s;
-    if (!tracker->met && (point || lip_m[0] >= cable_m[0])) {
+    const double gap = cable_m[0] - lip_m[0], rise = cable_m[2] - lip_m[2];
+    if (!tracker->met && (point || gap <= 0)) {
         tracker->met = true;
-        tracker->margin_m = cable_m[2] - lip_m[2] - tracker->friction_rise_m;
+        tracker->margin_m = rise_at_passing(tracker, gap, rise) - tracker->friction_rise_m;
         tracker->clear_of_deck_when_met = !tracker->touched;
     }
+    tracker->last_gap_m = gap;
+    tracker->last_rise_m = rise;
     if (throat && isnan(tracker->catch_s)) {
         tracker->catch_s = time_s;
         tracker->arm_before_throat = tracker->zone_touched[BT_ZONE_ARM];

@@ -17,8 +17,9 @@ typedef struct bt_tracker {
     // meeting of lip and cable
     bool met;
     double margin_m;
-    double friction_rise_m;      ///< see bt_tracker_start
-    bool clear_of_deck_when_met; ///< no deck contact before the meeting
+    double last_gap_m, last_rise_m; ///< cable ahead of and above the lip, at the latest step
+    double friction_rise_m;         ///< see bt_tracker_start
+    bool clear_of_deck_when_met;    ///< no deck contact before the meeting
     // contacts with the cable
     bool zone_touched[BT_ZONE_COUNT];
     bool arm_before_throat;
@@ -37,9 +38,9 @@ void bt_tracker_deck(bt_tracker* tracker, bt_landing_result* result, double shoe
                      double height_m, double force_N);
 
 /// After a cable step: normal forces on the zones, and lip and cable centres in the hook's plane.
-/// The cable's height above the lip, less the rise that friction asks for, when they meet (first
-/// touch by point or shoe, or the lip passing under or over the centre, whichever comes first), is
-/// the margin.
+/// The cable's height above the lip when the lip passes under or over its centre, less the rise
+/// that friction asks for, is the margin. If point or shoe touch before, the rest of the way is
+/// extrapolated: after a touch the rope is pushed clear on one side or the other.
 void bt_tracker_cable(bt_tracker* tracker, bt_landing_result* result, double time_s,
                       const double zone_force_N[BT_ZONE_COUNT], const double lip_m[3],
                       const double cable_m[3]);

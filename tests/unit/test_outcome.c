@@ -115,7 +115,7 @@ static void the_margin_is_taken_once_when_they_meet(void** state) {
     (void)state;
     // by touch
     meeting m = begin();
-    touch(&m, 0, 0, 0, 0, (double[]){-0.5, 0, 0.01});
+    touch(&m, 0, 0, 0, 0, (double[]){-0.5, 0, 0.06});
     touch(&m, 0, 1e3, 0, 0, (double[]){-0.025, 0, 0.06});
     touch(&m, 0, 0, 0, 0, (double[]){0.1, 0, 0.02});
     const double at_touch = finish(&m)->margin_m;
@@ -130,6 +130,24 @@ static void the_margin_is_taken_once_when_they_meet(void** state) {
     m = begin();
     touch(&m, 0, 1e3, 0, 0, (double[]){-0.025, 0, 0.05});
     BT_ASSERT_NEAR(finish(&m)->margin_m - at_touch, 0.01, 1e-13, 0);
+}
+
+/// A lip on a straight way gives the margin of its passing wherever on it the rope is touched.
+static void the_way_left_at_the_touch_is_carried_on(void** state) {
+    (void)state;
+    double margin[3];
+    for (int k = 0; k < 3; ++k) {
+        const double touched_at = -0.03 + 0.01 * k, slope = 0.02;
+        meeting m = begin();
+        touch(&m, 0, 0, 0, 0, (double[]){touched_at - 7e-4, 0, 0.05 + slope * (touched_at - 7e-4)});
+        touch(&m, 0, 1e3, 0, 0, (double[]){touched_at, 0, 0.05 + slope * touched_at});
+        margin[k] = finish(&m)->margin_m;
+    }
+    meeting m = begin();
+    touch(&m, 0, 0, 0, 0, (double[]){0, 0, 0.05});
+    const double at_passing = finish(&m)->margin_m;
+    for (int k = 0; k < 3; ++k)
+        BT_ASSERT_NEAR(margin[k], at_passing, 0, 1e-14);
 }
 
 /// y_h + l < y_c - r sin(atan mu): zero at the height where friction just lets the rope slide.
@@ -228,6 +246,7 @@ int main(void) {
         cmocka_unit_test(clear_of_it_after_a_deck_contact_is_bounced_over),
         cmocka_unit_test(clear_of_it_before_any_deck_contact_is_passed_over),
         cmocka_unit_test(the_margin_is_taken_once_when_they_meet),
+        cmocka_unit_test(the_way_left_at_the_touch_is_carried_on),
         cmocka_unit_test(the_margin_is_less_by_what_friction_takes),
         cmocka_unit_test(retained_while_throat_or_arm_still_holds_at_the_end),
         cmocka_unit_test(bounces_have_height_distance_and_the_force_that_began_them),
