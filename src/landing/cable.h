@@ -54,7 +54,7 @@ BT_DECLARE_GROUP(cable_sheaves, BT_CABLE_SHEAVES_FIELDS)
     F(REAL, axial_stiffness, N, OPTIONAL, 5.1e7, 1e3, 1e10, "Eq. 12", "K0 axial: EA") \
     F(REAL, bending_stiffness, Nm2, OPTIONAL, 150, 0, 1e5, "Eq. 14", "K0 bending: EI") \
     F(REAL, twist_stiffness, Nm2, OPTIONAL, 60, 0, 1e5, "Eq. 16", "K0 twist: GJ") \
-    F(REAL, axial_damping, Ns, OPTIONAL, 80, 0, 1e5, "Eq. 13", "C0 axial; the step pays for more than 80 N s at 0.05 m segments [assumed]") \
+    F(REAL, axial_damping, Ns, OPTIONAL, 40, 0, 1e5, "Eq. 13", "C0 axial; the step pays for more than 40 N s at 0.05 m segments [assumed]") \
     F(REAL, bending_damping, Nm2s, OPTIONAL, 0.03, 0, 100, "Eq. 15", "C0 bending; the step pays for more at short segments [assumed]") \
     F(REAL, twist_damping, Nm2s, OPTIONAL, 0.03, 0, 100, "Eq. 17", "C0 twist [assumed]") \
     F(PLAIN, shear_ratio, _, OPTIONAL, 0.3333333333333333, 0.01, 0.6, "", "shear over axial stiffness and damping of a joint; not in the paper [assumed]") \
