@@ -31,10 +31,12 @@ typedef struct unit_symbol {
 static const unit_symbol symbols[] = {
     {"m", 1, 1, 1, 0, 0, 0},
     {"mm", 1, 1e3, 1, 0, 0, 0},
+    {"dm", 1, 1e1, 1, 0, 0, 0},
     {"cm", 1, 1e2, 1, 0, 0, 0},
     {"km", 1e3, 1, 1, 0, 0, 0},
     {"um", 1, 1e6, 1, 0, 0, 0},
     {"in", 254, 1e4, 1, 0, 0, 0},
+    {"inch", 254, 1e4, 1, 0, 0, 0},
     {"ft", 3048, 1e4, 1, 0, 0, 0},
     {"nmi", 1852, 1, 1, 0, 0, 0},
     {"s", 1, 1, 0, 0, 1, 0},
@@ -46,9 +48,12 @@ static const unit_symbol symbols[] = {
     {"g", 1, 1e3, 0, 1, 0, 0},
     {"t", 1e3, 1, 0, 1, 0, 0},
     {"lb", 45359237, 1e8, 0, 1, 0, 0},
+    {"lbm", 45359237, 1e8, 0, 1, 0, 0},
     {"slug", 44482216152605, 3048e9, 0, 1, 0, 0},
     {"N", 1, 1, 1, 1, -2, 0},
     {"kN", 1e3, 1, 1, 1, -2, 0},
+    {"daN", 1e1, 1, 1, 1, -2, 0},
+    {"kgf", 980665, 1e5, 1, 1, -2, 0},
     {"MN", 1e6, 1, 1, 1, -2, 0},
     {"GN", 1e9, 1, 1, 1, -2, 0},
     {"lbf", 44482216152605, 1e13, 1, 1, -2, 0},
@@ -58,16 +63,20 @@ static const unit_symbol symbols[] = {
     {"MPa", 1e6, 1, -1, 1, -2, 0},
     {"GPa", 1e9, 1, -1, 1, -2, 0},
     {"bar", 1e5, 1, -1, 1, -2, 0},
+    {"mbar", 1e2, 1, -1, 1, -2, 0},
+    {"hPa", 1e2, 1, -1, 1, -2, 0},
     {"psi", 44482216152605, 64516e5, -1, 1, -2, 0},
     {"ksi", 44482216152605, 64516e2, -1, 1, -2, 0},
     {"atm", 101325, 1, -1, 1, -2, 0},
     {"kn", 1852, 3600, 1, 0, -1, 0},
+    {"fps", 3048, 1e4, 1, 0, -1, 0},
     {"rad", 1, 1, 0, 0, 0, 1},
     {"mrad", 1, 1e3, 0, 0, 0, 1},
     {"deg", M_PI, 180, 0, 0, 0, 1},
     {"rpm", M_PI, 30, 0, 0, -1, 1},
     {"L", 1, 1e3, 3, 0, 0, 0},
     {"mL", 1, 1e6, 3, 0, 0, 0},
+    {"cc", 1, 1e6, 3, 0, 0, 0},
     {"J", 1, 1, 2, 1, -2, 0},
     {"kJ", 1e3, 1, 2, 1, -2, 0},
     {"MJ", 1e6, 1, 2, 1, -2, 0},
@@ -88,7 +97,7 @@ static const unit_token tokens[] = {
     {"1", "", "a plain number"},
     {"m", "m", "m, mm, cm, in or ft"},
     {"m2", "m^2", "m^2, cm^2, mm^2, in^2 or ft^2"},
-    {"m3", "m^3", "m^3, L, cm^3, in^3 or ft^3"},
+    {"m3", "m^3", "m^3, L, cc, cm^3, in^3 or ft^3"},
     {"m4", "m^4", "m^4, cm^4 or mm^4"},
     {"pm", "1/m", "1/m or 1/mm"},
     {"s", "s", "s, ms, us or min"},
@@ -99,7 +108,7 @@ static const unit_token tokens[] = {
     {"kgm", "kg m", "kg m"},
     {"kgpm", "kg/m", "kg/m, g/m or lb/ft"},
     {"kgpm3", "kg/m^3", "kg/m^3, g/cm^3 or lb/ft^3"},
-    {"N", "N", "N, kN, MN, lbf or kip"},
+    {"N", "N", "N, daN, kN, MN, kgf, lbf or kip"},
     {"Nm", "N m", "N m, kN m or lbf ft"},
     {"Nm2", "N m^2", "N m^2, kN m^2 or lbf in^2"},
     {"Nm2s", "N m^2 s", "N m^2 s or kN m^2 s"},
@@ -116,7 +125,7 @@ static const unit_token tokens[] = {
     {"Nmprad", "N m/rad", "N m/rad, kN m/rad, N m/deg or lbf ft/rad"},
     {"Nmsprad", "N m s/rad", "N m s/rad, kN m s/rad or lbf ft s/rad"},
     {"Nprad", "N/rad", "N/rad, kN/rad or N/deg"},
-    {"Pa", "Pa", "Pa, kPa, MPa, bar or psi"},
+    {"Pa", "Pa", "Pa, kPa, MPa, bar, mbar or psi"},
     {"Paps", "Pa/s", "Pa/s or bar/s"},
     {"Pas", "Pa s", "Pa s"},
     {"mps", "m/s", "m/s, km/h, kn, ft/s or ft/min"},
@@ -128,7 +137,7 @@ static const unit_token tokens[] = {
     {"radps", "rad/s", "rad/s, deg/s or rpm"},
     {"radps2", "rad/s^2", "rad/s^2 or deg/s^2"},
     {"prad", "1/rad", "1/rad or 1/deg"},
-    {"J", "J", "J, kJ or N m"},
+    {"J", "J", "J, kJ, N m or lbf ft"},
     {"W", "W", "W, kW or N m/s"},
 };
 
@@ -286,12 +295,24 @@ static const char* number_fault(const char* start, const char* end, double numbe
     return NULL;
 }
 
+/// psig, psia, barg and the like say more than a unit does.
+static bool tells_gauge_from_absolute(const char* unit_text) {
+    static const char* const names[] = {"psig", "psia", "barg", "bara", "kPag", "kPaa"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
+        if (strncmp(unit_text, names[i], 4) == 0)
+            return true;
+    return false;
+}
+
 static const char* unit_fault(const char* unit_text, const unit* wanted, unit* typed) {
     const bool plain = memcmp(wanted->halves, (signed char[DIMENSIONS]){0}, DIMENSIONS) == 0;
     if (*unit_text == '\0')
         return plain ? NULL : "has no unit";
     if (plain)
         return "is wanted without a unit";
+    if (tells_gauge_from_absolute(unit_text))
+        return "tells gauge from absolute pressure, which the key's meaning does here (a "
+               "precharge is absolute, a tyre's pressure is gauge): leave out its last letter";
     if (!unit_from_text(unit_text, typed))
         return "has no known unit";
     if (memcmp(wanted->halves, typed->halves, DIMENSIONS) != 0)

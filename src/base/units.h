@@ -18,7 +18,7 @@ const char* bt_unit_text(const char* token);
 /// @param token  the dimension that is wanted, as a token
 /// @param value  the value in SI; untouched on failure
 /// @param why    on failure, what was wrong and what would be right, as a sentence without the
-///               value's name ("\"18 foo\" has no known unit; use Pa, kPa, MPa, bar or psi")
+///               value's name ("\"18 foo\" has no known unit; use Pa, kPa, MPa, bar, mbar or psi")
 /// @return BT_OK or BT_ERR_INPUT. Never accepts 3,6 or nan or 1e999. Independent of the locale.
 BT_CHECKED bt_status bt_unit_parse(const char* text, const char* token, double* value, char* why,
                                    size_t why_size);

@@ -1,6 +1,7 @@
 #include "elements/curve.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static double smaller_size(double a, double b) {
     return fabs(a) < fabs(b) ? a : b;
@@ -124,20 +125,37 @@ double bt_curve_integral(const bt_curve* curve, double x) {
            piece_integral(curve, i, (x - curve->x[i]) / (curve->x[i + 1] - curve->x[i]));
 }
 
-const char* bt_curve_fault(const bt_table* table, int least) {
-    if (table->count < least)
-        return "has too few rows";
+/// What is wrong with one row, or false.
+static bool row_fault(const bt_table* t, int i, const bt_curve_rule* rule, char* text,
+                      size_t size) {
+    const double x = t->x[i], y = t->y[i];
+    const int row = i + 1;
+    if (!isfinite(x) || !isfinite(y))
+        return snprintf(text, size, "row %d holds a value that is not finite", row) > 0;
+    if (x < 0)
+        return snprintf(text, size, "row %d begins below 0: %g %s", row, x, rule->x_unit) > 0;
+    if (i > 0 && x <= t->x[i - 1])
+        return snprintf(text, size,
+                        "must increase from row to row in its first column; row %d has %g %s "
+                        "after %g %s",
+                        row, x, rule->x_unit, t->x[i - 1], rule->x_unit) > 0;
+    if (y <= 0)
+        return snprintf(text, size, "must be above 0 in its second column; row %d has %g %s", row,
+                        y, rule->y_unit) > 0;
+    if (rule->never_falls && i > 0 && y < t->y[i - 1])
+        return snprintf(text, size, "decreases, and must not; row %d has %g %s after %g %s", row, y,
+                        rule->y_unit, t->y[i - 1], rule->y_unit) > 0;
+    return false;
+}
+
+bool bt_curve_fault(const bt_table* table, const bt_curve_rule* rule, char* text, size_t size) {
+    if (table->count < rule->least)
+        return snprintf(text, size, "has %d rows; %d at least are needed", table->count,
+                        rule->least) > 0;
     if (table->count > BT_LIST_MAX)
-        return "has too many rows";
-    for (int i = 0; i < table->count; ++i) {
-        if (!isfinite(table->x[i]) || !isfinite(table->y[i]))
-            return "holds a value that is not finite";
-        if (table->x[i] < 0)
-            return "begins below 0";
-        if (i > 0 && table->x[i] <= table->x[i - 1])
-            return "must increase from row to row in its first column";
-        if (table->y[i] <= 0)
-            return "must be above 0 in its second column";
-    }
-    return NULL;
+        return snprintf(text, size, "has more than %d rows", (int)BT_LIST_MAX) > 0;
+    for (int i = 0; i < table->count; ++i)
+        if (row_fault(table, i, rule, text, size))
+            return true;
+    return false;
 }

@@ -33,8 +33,15 @@ double bt_curve_slope(const bt_curve* curve, double x);
 /// Integral from the first row to x, which lies between the ends (laws smooth and linear).
 double bt_curve_integral(const bt_curve* curve, double x);
 
-/// What is wrong with a table, as a sentence, or NULL: at least `least` rows, finite, x strictly
-/// increasing and not negative, y above 0.
-const char* bt_curve_fault(const bt_table* table, int least);
+/// What a table may not hold.
+typedef struct bt_curve_rule {
+    int least;                   ///< rows
+    const char *x_unit, *y_unit; ///< for the message
+    bool never_falls;            ///< y grows or stays from row to row
+} bt_curve_rule;
+
+/// Whether a table breaks a rule: too few rows, not finite, x not strictly increasing or below 0, y
+/// not above 0. Says so in text, with the row (from 1) and what was read: a sentence's end.
+bool bt_curve_fault(const bt_table* table, const bt_curve_rule* rule, char* text, size_t size);
 
 #endif

@@ -9,22 +9,16 @@ const char* const bt_orifice_law_names[] = {"smooth", "linear", "stepped", NULL}
 const char* const bt_spring_names[] = {"gas", "points", NULL};
 
 static void check_points(const bt_oleo_params* p, const char* path, bt_diag* diag) {
-    const bt_table* t = &p->spring_points;
-    const char* fault = NULL;
-    if (t->count < 2)
-        fault = "two rows at least are needed where spring is points";
-    else if (t->x[0] != 0)
-        fault = "must begin at stroke 0 (its load there is the preload)";
-    for (int i = 0; !fault && i < t->count; ++i) {
-        if (!isfinite(t->x[i]) || !isfinite(t->y[i]) || t->y[i] < 0)
-            fault = "holds a load below 0 or a value that is not finite";
-        else if (i > 0 && t->x[i] <= t->x[i - 1])
-            fault = "must increase from row to row in its first column (stroke)";
-        else if (i > 0 && t->y[i] < t->y[i - 1])
-            fault = "decreases; the load must grow with the stroke";
-    }
-    if (fault)
+    const bt_curve_rule rule = {2, "m", "N", true};
+    char fault[160];
+    bt_table rows = p->spring_points;
+    if (rows.count > 0 && rows.y[0] == 0)
+        rows.y[0] = 1e-300; // a spring may begin without a preload
+    if (bt_curve_fault(&rows, &rule, fault, sizeof fault))
         bt_key_error(diag, path, "spring_points", "%s", fault);
+    else if (rows.x[0] != 0)
+        bt_key_error(diag, path, "spring_points",
+                     "begins at %g m; its first row must be at stroke 0 (the preload)", rows.x[0]);
 }
 
 static bool lacks(double value, const char* key, const char* path, bt_diag* diag) {
@@ -66,8 +60,9 @@ static void check_gas(const bt_oleo_params* p, const char* path, bt_diag* diag) 
 
 static void check_orifices(const bt_oleo_params* p, const char* path, bt_diag* diag) {
     if (p->oil_area_m2 > 0 && p->orifice_table.count > 0) {
-        const char* fault = bt_curve_fault(&p->orifice_table, 2);
-        if (fault)
+        const bt_curve_rule rule = {2, "m", "m^2", false};
+        char fault[160];
+        if (bt_curve_fault(&p->orifice_table, &rule, fault, sizeof fault))
             bt_key_error(diag, path, "orifice_table", "%s", fault);
         if (p->orifice_area_m2 > 0)
             bt_key_error(diag, path, "orifice_area",

@@ -10,17 +10,12 @@ const char* const bt_tyre_law_names[] = {"smiley_horne", "points", "power", NULL
 static const double cornering_break = 0.0875;
 
 static void check_points(const bt_tyre_params* p, const char* path, bt_diag* diag) {
-    const bt_table* t = &p->load_points;
-    const char* fault = bt_curve_fault(t, 1);
-    if (!fault && t->x[0] <= 0)
-        fault = "begins at 0; the point (0, 0) is implied";
-    if (!fault && t->count == BT_LIST_MAX + 1)
-        fault = "has too many rows";
-    for (int i = 1; !fault && i < t->count; ++i)
-        if (t->y[i] < t->y[i - 1])
-            fault = "decreases; the load must grow with the deflection";
-    if (fault)
+    const bt_curve_rule rule = {1, "m", "N", true};
+    char fault[160];
+    if (bt_curve_fault(&p->load_points, &rule, fault, sizeof fault))
         bt_key_error(diag, path, "load_points", "%s", fault);
+    else if (p->load_points.x[0] <= 0)
+        bt_key_error(diag, path, "load_points", "begins at 0; the point (0, 0) is implied");
 }
 
 static void check_tyre(const void* params, const char* path, bt_diag* diag) {

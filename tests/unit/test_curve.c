@@ -102,18 +102,29 @@ static void integral_is_the_antiderivative(void** state) {
 
 static void faults_are_named(void** state) {
     (void)state;
-    bt_table t = {2, {0, 0.1}, {1e-4, 1e-4}};
-    assert_null(bt_curve_fault(&t, 2));
-    assert_string_equal(bt_curve_fault(&t, 3), "has too few rows");
-    t.x[1] = 0;
-    assert_string_equal(bt_curve_fault(&t, 2), "must increase from row to row in its first column");
-    t.x[1] = NAN;
-    assert_string_equal(bt_curve_fault(&t, 2), "holds a value that is not finite");
-    t.x[1] = 0.1;
-    t.y[0] = 0;
-    assert_string_equal(bt_curve_fault(&t, 2), "must be above 0 in its second column");
-    t.x[0] = -0.1;
-    assert_string_equal(bt_curve_fault(&t, 2), "begins below 0");
+    static const struct {
+        bt_table rows;
+        int least;
+        const char* says;
+    } cases[] = {
+        {{2, {0, 0.1}, {1e-4, 1e-4}}, 3, "has 2 rows; 3 at least are needed"},
+        {{2, {0, 0}, {1e-4, 1e-4}},
+         2,
+         "must increase from row to row in its first column; row 2 has 0 m after 0 m"},
+        {{2, {0, NAN}, {1e-4, 1e-4}}, 2, "row 2 holds a value that is not finite"},
+        {{2, {0, 0.1}, {0, 1e-4}}, 2, "must be above 0 in its second column; row 1 has 0 N"},
+        {{2, {-0.1, 0.1}, {1, 1}}, 2, "row 1 begins below 0: -0.1 m"},
+        {{2, {0, 0.1}, {2, 1}}, 2, "decreases, and must not; row 2 has 1 N after 2 N"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        const bt_curve_rule rule = {cases[i].least, "m", "N", true};
+        char text[160] = "";
+        assert_true(bt_curve_fault(&cases[i].rows, &rule, text, sizeof text));
+        assert_string_equal(text, cases[i].says);
+    }
+    const bt_table sound = {2, {0, 0.1}, {2, 1}};
+    const bt_curve_rule rule = {2, "m", "m^2", false};
+    assert_false(bt_curve_fault(&sound, &rule, NULL, 0));
 }
 
 int main(void) {

@@ -443,7 +443,7 @@ static void check_refuses_a_metering_table_that_goes_back(void** state) {
     const seen s = errors_of(&p);
     assert_int_equal(s.count, 1);
     assert_string_equal(s.text[0], "main_gear.oleo.orifice_table: must increase from row to row in "
-                                   "its first column");
+                                   "its first column; row 3 has 0.05 m after 0.09 m");
 }
 
 static void check_refuses_missing_and_double_orifices(void** state) {
@@ -476,11 +476,11 @@ static void check_refuses_spring_points_that_fall_or_begin_late(void** state) {
         bt_table rows;
         const char* says;
     } cases[] = {
-        {{1, {0}, {1e3}}, "two rows at least"},
-        {{2, {0.01, 0.1}, {1e3, 2e3}}, "must begin at stroke 0"},
+        {{1, {0}, {1e3}}, "2 at least are needed"},
+        {{2, {0.01, 0.1}, {1e3, 2e3}}, "its first row must be at stroke 0"},
         {{3, {0, 0.2, 0.1}, {1e3, 2e3, 3e3}}, "must increase from row to row"},
         {{3, {0, 0.1, 0.2}, {1e3, 3e3, 2e3}}, "decreases"},
-        {{2, {0, 0.1}, {-1, 3e3}}, "below 0"},
+        {{2, {0, 0.1}, {-1, 3e3}}, "must be above 0"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         bt_oleo_params p = leaf();

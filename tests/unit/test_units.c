@@ -96,6 +96,15 @@ static void every_unit_is_one_exact_factor(void** state) {
         {"50 Hz", "ps", 50},
         {"50 1/s", "ps", 50},
         {"12", "1", 12},
+        {"9 lbm", "kg", 9 * 45359237 / 1e8},
+        {"3 kgf", "N", 3 * 980665 / 1e5},
+        {"7 daN", "N", 70},
+        {"1013 mbar", "Pa", 101300},
+        {"1013 hPa", "Pa", 101300},
+        {"580 cc", "m3", 580e-6},
+        {"2 dm^3", "m3", 2e-3},
+        {"10 inch", "m", 0.254},
+        {"7 fps", "mps", 7 * 3048 / 1e4},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i)
         assert_reads(rows[i].text, rows[i].token, rows[i].value);
@@ -131,7 +140,7 @@ static void a_unit_may_be_written_in_several_ways(void** state) {
 
 static void what_is_no_value_is_refused_with_what_would_do(void** state) {
     (void)state;
-    const char* pa = "use Pa, kPa, MPa, bar or psi";
+    const char* pa = "use Pa, kPa, MPa, bar, mbar or psi";
     char want[256];
     static const struct {
         const char *text, *what;
@@ -162,6 +171,11 @@ static void what_is_no_value_is_refused_with_what_would_do(void** state) {
         snprintf(want, sizeof want, "\"%s\" %s; %s", rows[i].text, rows[i].what, pa);
         assert_refused(rows[i].text, "Pa", want);
     }
+    snprintf(want, sizeof want,
+             "\"30 psig\" tells gauge from absolute pressure, which the key's meaning does here (a "
+             "precharge is absolute, a tyre's pressure is gauge): leave out its last letter; %s",
+             pa);
+    assert_refused("30 psig", "Pa", want);
     assert_refused("7 kg", "1", "\"7 kg\" is wanted without a unit; use a plain number");
     assert_refused("7", "foo", "unit token \"foo\" is not in the table");
 }
