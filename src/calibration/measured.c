@@ -78,7 +78,7 @@ static bt_status read_header(cursor* c, bt_measured* m, bt_diag* diag) {
     BT_TRY(read_heading(c, m->x_name, m->x_unit, sizeof m->x_unit, &m->x_place, diag));
     if (*c->at != ',') {
         bt_diag_add(diag, BT_ERROR, place(c),
-                    "two columns are wanted, as in: time [s], stroke [mm]");
+                    "a comma and a second column are wanted here, as in: time [s], stroke [mm]");
         return BT_ERR_INPUT;
     }
     ++c->at;
@@ -116,7 +116,8 @@ static bt_status read_row(cursor* c, bt_measured* m, bt_diag* diag) {
     ++c->at;
     BT_TRY(read_number(c, m->y_name, &m->y[i], diag));
     if (*c->at != '\n' && *c->at != '\0') {
-        bt_diag_add(diag, BT_ERROR, place(c), "a row has two numbers, not more");
+        bt_diag_add(diag, BT_ERROR, place(c),
+                    "a row has two numbers, not more (the decimal point is \".\")");
         return BT_ERR_INPUT;
     }
     if (i > 0 && !(m->x[i] > m->x[i - 1])) {
@@ -128,6 +129,8 @@ static bt_status read_row(cursor* c, bt_measured* m, bt_diag* diag) {
 }
 
 static bt_status read_text(const char* text, bt_measured* m, bt_diag* diag) {
+    if (strncmp(text, "\xef\xbb\xbf", 3) == 0)
+        text += 3; // the byte order mark that spreadsheets write
     cursor c = {text, text, {m->file, 1, 1}};
     if (!next_line(&c, true)) {
         bt_diag_add(diag, BT_ERROR, c.where, "the file is empty");
@@ -196,8 +199,9 @@ static void report_column(const char* name, bt_where where, const char* const* n
         bt_text_append(list, sizeof list, "%s%.*s", i ? ", " : "",
                        has_unit ? (int)(last - names[i]) : (int)strlen(names[i]), names[i]);
     }
-    bt_diag_add(diag, BT_ERROR, where, "%s: no such column in this experiment's history; it has %s",
-                name, list);
+    bt_diag_add(diag, BT_ERROR, where,
+                "%s: no such column in this experiment's history; it has %s%s", name, list,
+                strchr(name, '(') ? "; units stand in brackets, as in stroke [mm]" : "");
 }
 
 /// Finds a column and the factor from its written unit to SI.
@@ -219,6 +223,11 @@ static bt_status bind_column(const char* name, const char* unit, bt_where where,
     snprintf(one, sizeof one, "1 %s", unit);
     if (bt_unit_parse(*unit ? one : "1", token, factor, why, sizeof why) == BT_OK)
         return BT_OK;
+    if (!*unit) {
+        bt_diag_add(diag, BT_ERROR, where, "%s: its unit is missing; write it in brackets: %s [%s]",
+                    name, name, bt_unit_text(token));
+        return BT_ERR_INPUT;
+    }
     bt_diag_add(diag, BT_ERROR, where, "%s: the unit in brackets is wrong: %s", name, why);
     return BT_ERR_INPUT;
 }

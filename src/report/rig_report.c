@@ -107,14 +107,15 @@ static bt_metric point_of(const bt_rig_record* record, const bt_measured* m, int
                    .value = bt_rig_record_at(record, m->y_column, m->x_column, m->x[i]),
                    .reference = m->y[i],
                    .tolerance = tolerance};
-    p.error_percent = 100 * (p.value - p.reference) / fabs(p.reference);
+    // no share of nothing: a point at 0 is drawn, and not judged
+    p.error_percent = p.reference != 0 ? 100 * (p.value - p.reference) / fabs(p.reference) : NAN;
     p.accepted = fabs(p.error_percent) <= 100 * tolerance;
     return p;
 }
 
 static void print_points(FILE* out, const bt_rig_record* record, const bt_measured* m,
                          double tolerance) {
-    int good = 0;
+    int good = 0, judged = 0;
     double worst = 0;
     for (int i = 0; i < m->count; ++i) {
         char name[64], x[40];
@@ -122,11 +123,17 @@ static void print_points(FILE* out, const bt_rig_record* record, const bt_measur
         put_value(m->x[i], x, sizeof x);
         snprintf(name, sizeof name, "  at %.30s %.20s", record->names[m->x_column], x);
         p.name = name;
+        if (!isfinite(p.error_percent)) {
+            fprintf(out, "%-24s %s\n", name,
+                    isfinite(p.value) ? "measured 0, drawn only" : "beyond the run, drawn only");
+            continue;
+        }
         print_metric(out, &p);
+        ++judged;
         good += p.accepted;
         worst = fmax(worst, fabs(p.error_percent));
     }
-    fprintf(out, "%d of %d points within %g %%, largest error %.2f %%\n", good, m->count,
+    fprintf(out, "%d of %d points within %g %%, largest error %.2f %%\n", good, judged,
             100 * tolerance, worst);
 }
 

@@ -173,7 +173,9 @@ static int check_data(fixture* f, const char* csv) {
 
 static void measured_curve_is_drawn_beside_the_run(void** state) {
     fixture* f = *state;
-    assert_int_equal(check_data(f, "time [ms], stroke [in]\n0, 0\n50, 2\n100, 5\n"), 0);
+    assert_int_equal(check_data(f, "\xef\xbb\xbftime [ms], stroke [in]\r\n0, 0\r\n50, 2\r\n"
+                                   "100, 5\r\n"), // as a spreadsheet writes it
+                     0);
     assert_has(f->out, "1 measured curve");
     assert_int_equal(bolter(f, "rig main-drop %/rig.yaml -o %/x"), 0);
     assert_has(f->out, "data.csv: rms difference");
@@ -189,7 +191,14 @@ static void measured_curve_with_wrong_columns_or_units_is_refused(void** state) 
     assert_int_equal(check_data(f, "time [s], stroke [kN]\n0, 0\n1, 1\n"), 3);
     assert_has(f->err, "data.csv:1:11: error: stroke: the unit in brackets is wrong");
     assert_int_equal(check_data(f, "time [s], stroke\n0, 0\n1, 1\n"), 3);
-    assert_has(f->err, "data.csv:1:11: error: stroke");
+    assert_has(f->err, "data.csv:1:11: error: stroke: its unit is missing; write it in brackets");
+    assert_int_equal(check_data(f, "time [s]; stroke [mm]\n0; 0\n1; 1\n"), 3);
+    assert_has(f->err, "data.csv:1:9: error: a comma and a second column are wanted here");
+    assert_int_equal(check_data(f, "time (s), stroke (mm)\n0, 0\n1, 1\n"), 3);
+    assert_has(f->err, "data.csv:1:1: error: time (s): no such column");
+    assert_has(f->err, "units stand in brackets");
+    assert_int_equal(check_data(f, "time [s], stroke [mm]\n0,0, 0\n0,1, 1\n"), 3);
+    assert_has(f->err, "data.csv:2:4: error: a row has two numbers, not more");
     assert_int_equal(check_data(f, "0, 0\n1, 1\n"), 3);
     assert_has(f->err, "data.csv:1:1: error: the first line must name two columns");
     assert_int_equal(check_data(f, "time [s], stroke [mm]\n0, 0\n1, one\n"), 3);
