@@ -1,6 +1,6 @@
 #include "campaign/design.h"
-#include "campaign/stable_step.h"
 #include "cli/cli.h"
+#include "landing/stable_step.h"
 #include "report/rig_report.h"
 
 #include "base/units.h"
@@ -41,14 +41,7 @@ static void warn_of_settings(const bt_model_params* model, bt_diag* diag) {
 }
 
 /// What is allowed but seldom meant: each line is a warning on stderr.
-static void warn(const bt_study* study, const bt_stable_step* steps, int step_count,
-                 bt_diag* diag) {
-    for (int i = 0; i < step_count; ++i)
-        if (steps[i].used_s > steps[i].stable_s)
-            bt_diag_add(diag, BT_WARNING, BT_NOWHERE,
-                        "%s: %.3g us is above the stable step of %s, %.3g us: landings may diverge",
-                        steps[i].setting, 1e6 * steps[i].used_s, steps[i].element,
-                        1e6 * steps[i].stable_s);
+static void warn(const bt_study* study, bt_diag* diag) {
     warn_of_settings(&study->model, diag);
     for (int i = 0; i < study->input_count; ++i) {
         const bt_input* input = &study->inputs[i];
@@ -160,7 +153,7 @@ static bt_status check(const bt_command* command, const bt_study* study) {
     bt_stable_step steps[BT_STABLE_STEP_MAX];
     int step_count = 0;
     BT_TRY(bt_stable_steps(&study->model, steps, &step_count, &diag));
-    warn(study, steps, step_count, &diag);
+    warn(study, &diag);
     if (command->json)
         print_json(study, runs, steps, step_count);
     else if (!command->quiet)

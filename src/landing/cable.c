@@ -144,8 +144,8 @@ static void check_cable(const void* params, const char* path, bt_diag* diag) {
     else if (!(sag < clear))
         bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
                     "%s.pretension: at %g N the cable sags %g m between the first supports and "
-                    "starts inside the deck; above %g N, or supports nearer together",
-                    path, p->pretension_N, sag, p->pretension_N * sag / clear);
+                    "starts inside the deck; above %g N, or supports above %g m",
+                    path, p->pretension_N, sag, p->pretension_N * sag / clear, sag + sink);
     /* straight from the sheave to the unloaded support next but one: it must press on the outermost
      */
     const double edge = 0.5 * p->span_m - y.value[y.count - 1];

@@ -18,7 +18,10 @@ typedef enum bt_mode {
 const char* bt_outcome_name(bt_outcome outcome); ///< "engaged", "missed", "failed"
 const char* bt_mode_name(bt_mode mode);          ///< "direct", ...; "none"
 
-enum { BT_BOUNCE_MAX = 16 };
+enum {
+    BT_BOUNCE_MAX = 16,
+    BT_LANDING_SEGMENTS_MAX = 1000, ///< of cable; what the memory of one landing has room for
+};
 
 typedef struct bt_bounce {
     double height_m;       ///< of the shoe above the deck, at the top

@@ -1,6 +1,8 @@
 #include "landing/params.h"
 
+#include "landing/landing.h"
 #include "landing/profile.h"
+#include "landing/stable_step.h"
 
 #include <stdio.h>
 
@@ -51,7 +53,32 @@ BT_DEFINE_GROUP(solver, BT_SOLVER_FIELDS, ROW, NULL, "steps and limits of the co
 BT_DEFINE_GROUP(landing, BT_LANDING_FIELDS, ROW, NULL, "how the aircraft comes down")
 #undef ROW
 
-/// What only the parts together can say: the cable must fit the hook.
+/// A step above the stable one does not follow what happens, even when nothing diverges.
+static void check_steps(const bt_model_params* model, const char* path, bt_diag* diag) {
+    bt_stable_step steps[BT_STABLE_STEP_MAX];
+    const int count = bt_airframe_stable_steps(model, steps);
+    for (int i = 0; i < count; ++i)
+        if (steps[i].used_s > steps[i].stable_s)
+            bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                        "%s%s%s: %.4g us is above the stable step of %s; at most %.4g us", path,
+                        *path ? "." : "", steps[i].setting, 1e6 * steps[i].used_s, steps[i].element,
+                        1e6 * steps[i].stable_s);
+}
+
+/// A landing has its memory from the start; a mesh must fit into it.
+static void check_mesh_size(const bt_cable_params* cable, const char* path, bt_diag* diag) {
+    double length_m[BT_CABLE_SEGMENTS_MAX];
+    bt_cable_def def;
+    bt_cable_def_init(&def, cable, 0, length_m);
+    if (def.count > BT_LANDING_SEGMENTS_MAX)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s%sdeck.cable.mesh: gives %d segments, a landing has room for %d; segments "
+                    "%.2g times as long or narrower parts would do",
+                    path, *path ? "." : "", def.count, (int)BT_LANDING_SEGMENTS_MAX,
+                    0.05 + (double)def.count / BT_LANDING_SEGMENTS_MAX);
+}
+
+/// What only the parts together can say: the cable must fit the hook, the steps the parts.
 static void check_model(const void* params, const char* path, bt_diag* diag) {
     const bt_model_params* model = params;
     const bt_hook_params* hook = &model->aircraft.hook;
@@ -63,6 +90,9 @@ static void check_model(const void* params, const char* path, bt_diag* diag) {
     // its errors are in diag; the outline itself is not wanted here
     (void)!bt_profile_build(&hook->profile, hook->length_m, 0.5 * model->deck.cable.diameter_m,
                             place, &profile, diag);
+
+    check_steps(model, path, diag);
+    check_mesh_size(&model->deck.cable, path, diag);
 
     const bt_gear_params* gear = &model->aircraft.main_gear;
     const double track_m = 2 * gear->half_track_m + gear->tyre.width_m * (double)gear->tyre.tyres;

@@ -57,6 +57,29 @@ static bt_status check_dimensions(const bt_hook_profile_params* p, const double 
     return status;
 }
 
+/// The throat breaks through the shoe: says so, with the longest straight that would do, if any.
+static void refuse_crossing(const bt_hook_profile_params* p, const double lip[2], double floor_m,
+                            const char* path, bt_diag* diag) {
+    const double radii = p->lip_radius_m + p->throat_radius_m;
+    const double w = -(p->arm_radius_m + p->throat_radius_m), across = lip[1] - w;
+    const double reach = p->shoe_radius_m - p->throat_radius_m - floor_least_m;
+    const double along = reach > fabs(w) ? lip[0] + sqrt(reach * reach - w * w) : -1;
+    const double most2 = along * along - radii * radii + across * across;
+    if (along > 0 && most2 >= 0 && most2 < p->throat_length_m * p->throat_length_m &&
+        across * across - radii * radii <= most2)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s.throat_length: the outline crosses itself: at %g mm the throat leaves %g "
+                    "mm above the shoe, at least %g mm are needed; %.4g mm or less would do",
+                    path, 1e3 * p->throat_length_m, 1e3 * floor_m, 1e3 * floor_least_m,
+                    1e3 * sqrt(most2));
+    else
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s.shoe_radius: the outline crosses itself: the throat leaves %g mm above the "
+                    "shoe, at least %g mm are needed; a shoe %.4g mm larger with the lip as it is, "
+                    "or a smaller throat_radius, would do",
+                    path, 1e3 * floor_m, 1e3 * floor_least_m, 1e3 * (floor_least_m - floor_m));
+}
+
 /// Centre of the throat arc: tangent to the arm face, and joined to the lip by a straight of the
 /// given length that is tangent to both.
 static bt_status place_throat(const bt_hook_profile_params* p, const double lip[2],
@@ -75,11 +98,7 @@ static bt_status place_throat(const bt_hook_profile_params* p, const double lip[
     throat[0] = lip[0] - sqrt(along2);
     const double floor_m = p->shoe_radius_m - hypot(throat[0], throat[1]) - p->throat_radius_m;
     if (floor_m < floor_least_m) {
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "%s: the outline crosses itself: the throat leaves %g mm above the shoe; at "
-                    "least %g mm are needed (shorten throat_length, reduce throat_radius or "
-                    "enlarge shoe_radius)",
-                    path, 1e3 * floor_m, 1e3 * floor_least_m);
+        refuse_crossing(p, lip, floor_m, path, diag);
         return BT_ERR_INPUT;
     }
     return BT_OK;

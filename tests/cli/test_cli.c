@@ -67,11 +67,28 @@ static void check_accepts_the_reference_and_prints_stable_steps(void** state) {
     assert_has(f->out, "\"stable_s\"");
 }
 
-static void check_warns_of_a_step_above_the_stable_one(void** state) {
+static void a_step_above_the_stable_one_is_refused_with_the_step_that_would_do(void** state) {
     fixture* f = *state;
-    assert_int_equal(bolter(f, "check " REFERENCE " --set landing.solver.contact_step='5 ms'"), 0);
-    assert_has(f->err, "warning: landing.solver.contact_step");
-    assert_has(f->err, "aircraft.hook.deck_contact");
+    static const char* const verbs[] = {"check ", "land "};
+    for (int k = 0; k < 2; ++k) {
+        char line[256];
+        snprintf(line, sizeof line,
+                 "%s" REFERENCE " --set landing.solver.airframe_step='5 ms'"
+                 " --set landing.solver.contact_step='1 ms'",
+                 verbs[k]);
+        assert_int_equal(bolter(f, line), 3);
+        assert_has(f->err, "error: landing.solver.contact_step: 1000 us is above the stable step "
+                           "of aircraft.hook.deck_contact; at most");
+        assert_has(f->err, "error: landing.solver.airframe_step: 5000 us is above the stable step "
+                           "of aircraft.nose_gear.oleo; at most");
+    }
+}
+
+static void a_mesh_too_fine_for_the_memory_of_a_landing_is_refused(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "check " REFERENCE " --set deck.cable.mesh.fine_length='5 mm'"), 3);
+    assert_has(f->err, "error: deck.cable.mesh: gives");
+    assert_has(f->err, "a landing has room for 1000; segments");
 }
 
 /// Replaces the first line that begins with `key` by another.
@@ -259,7 +276,8 @@ int main(void) {
         TEST(help_and_version_are_no_errors),
         TEST(wrong_use_is_exit_code_2),
         TEST(check_accepts_the_reference_and_prints_stable_steps),
-        TEST(check_warns_of_a_step_above_the_stable_one),
+        TEST(a_mesh_too_fine_for_the_memory_of_a_landing_is_refused),
+        TEST(a_step_above_the_stable_one_is_refused_with_the_step_that_would_do),
         TEST(check_reports_five_mistakes_with_their_places),
         TEST(a_file_that_is_not_there_is_exit_code_5),
         TEST(land_prints_the_promised_keys_and_nothing_else),

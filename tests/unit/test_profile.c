@@ -258,6 +258,19 @@ static void a_throat_that_breaks_through_the_shoe_is_refused(void** state) {
         assert_null(strstr(kept.text, "crosses itself"));
 }
 
+static void a_throat_too_long_is_refused_with_the_length_that_would_do(void** state) {
+    (void)state;
+    bt_hook_profile_params p = usual();
+    p.throat_length_m = 0.06;
+    messages kept;
+    refuse(&p, "hook.throat_length: the outline crosses itself", &kept);
+    const double most = 1e-3 * number_after(kept.text, "are needed; ");
+    p.throat_length_m = 0.9999 * most;
+    built(&p);
+    p.throat_length_m = 1.001 * most;
+    refuse(&p, "crosses itself", &kept);
+}
+
 static void
 a_throat_too_short_to_reach_the_arm_is_refused_with_the_length_that_would_do(void** state) {
     (void)state;
@@ -300,6 +313,7 @@ int main(void) {
         cmocka_unit_test(a_lip_inside_the_shoe_is_refused_with_the_radius_that_would_do),
         cmocka_unit_test(a_throat_narrower_than_the_cable_is_refused_with_the_radius_that_would_do),
         cmocka_unit_test(a_throat_that_breaks_through_the_shoe_is_refused),
+        cmocka_unit_test(a_throat_too_long_is_refused_with_the_length_that_would_do),
         cmocka_unit_test(
             a_throat_too_short_to_reach_the_arm_is_refused_with_the_length_that_would_do),
         cmocka_unit_test(an_arm_thicker_than_the_shoe_is_refused),

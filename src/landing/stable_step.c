@@ -1,4 +1,4 @@
-#include "campaign/stable_step.h"
+#include "landing/stable_step.h"
 
 #include "elements/tyre.h"
 #include "landing/cable.h"
@@ -17,6 +17,12 @@ static double tyre_slope(const bt_tyre_params* params) {
     return (bt_tyre_load(&tyre, d + h) - bt_tyre_load(&tyre, d - h)) / (2 * h);
 }
 
+/// Largest h with omega^2 h^2 + 2 g h <= 4: leapfrog with the damping of the last half step.
+static double damped_step(double stiffness, double damping, double mass) {
+    const double omega2 = stiffness / mass, g = damping / mass;
+    return (sqrt(g * g + 4 * omega2) - g) / omega2;
+}
+
 /// Contact of the shoe at the depth of an impact at the sinking velocity; the hook's mass as felt
 /// at the shoe is I / x^2, x the horizontal distance of shoe and pivot.
 static double shoe_step(const bt_model_params* model) {
@@ -27,7 +33,8 @@ static double shoe_step(const bt_model_params* model) {
     const double mass = hook->inertia_kgm2 / (arm * arm);
     const double v = model->landing.sink_speed_mps;
     const double depth = pow(1.25 * mass * v * v / contact.stiffness, 0.4);
-    return step_of(1.5 * contact.stiffness * sqrt(depth), mass);
+    return damped_step(1.5 * contact.stiffness * sqrt(depth),
+                       contact.dissipation * contact.stiffness * depth * sqrt(depth), mass);
 }
 
 static bt_status cable_step(const bt_model_params* model, double* stable_s, bt_diag* diag) {
@@ -45,8 +52,7 @@ static bt_status cable_step(const bt_model_params* model, double* stable_s, bt_d
     return status;
 }
 
-bt_status bt_stable_steps(const bt_model_params* model, bt_stable_step* steps, int* count,
-                          bt_diag* diag) {
+int bt_airframe_stable_steps(const bt_model_params* model, bt_stable_step* steps) {
     static const char airframe[] = "landing.solver.airframe_step";
     static const char contact[] = "landing.solver.contact_step";
     const bt_gear_params* nose = &model->aircraft.nose_gear;
@@ -56,26 +62,32 @@ bt_status bt_stable_steps(const bt_model_params* model, bt_stable_step* steps, i
     const double nose_kg = nose->piston_mass_kg + nose->wheel_mass_kg;
     const double main_kg = main_gear->piston_mass_kg + main_gear->wheel_mass_kg;
     const double lever = hook->damper_lever_m;
-
-    double cable_s = 0;
-    BT_TRY(cable_step(model, &cable_s, diag));
+    const double flight_s = solver->airframe_step_s;
+    const double contact_s = fmin(solver->contact_step_s, flight_s);
     const bt_stable_step all[] = {
         {"aircraft.nose_gear.oleo", airframe, step_of(nose->oleo.stop_stiffness_Npm, nose_kg),
-         solver->airframe_step_s},
-        {"aircraft.nose_gear.tyre", airframe, step_of(tyre_slope(&nose->tyre), nose_kg),
-         solver->airframe_step_s},
+         flight_s},
+        {"aircraft.nose_gear.tyre", airframe, step_of(tyre_slope(&nose->tyre), nose_kg), flight_s},
         {"aircraft.main_gear.oleo", airframe, step_of(main_gear->oleo.stop_stiffness_Npm, main_kg),
-         solver->airframe_step_s},
+         flight_s},
         {"aircraft.main_gear.tyre", airframe, step_of(tyre_slope(&main_gear->tyre), main_kg),
-         solver->airframe_step_s},
+         flight_s},
         {"aircraft.hook.damper", contact,
-         step_of(hook->damper.stop_stiffness_Npm * lever * lever, hook->inertia_kgm2),
-         solver->contact_step_s},
-        {"aircraft.hook.deck_contact", contact, shoe_step(model), solver->contact_step_s},
-        {"deck.cable", "landing.solver.cable_courant", cable_s, cable_s * solver->cable_courant},
+         step_of(hook->damper.stop_stiffness_Npm * lever * lever, hook->inertia_kgm2), contact_s},
+        {"aircraft.hook.deck_contact", contact, shoe_step(model), contact_s},
     };
-    *count = (int)(sizeof all / sizeof all[0]);
-    for (int i = 0; i < *count; ++i)
+    const int count = (int)(sizeof all / sizeof all[0]);
+    for (int i = 0; i < count; ++i)
         steps[i] = all[i];
+    return count;
+}
+
+bt_status bt_stable_steps(const bt_model_params* model, bt_stable_step* steps, int* count,
+                          bt_diag* diag) {
+    double cable_s = 0;
+    BT_TRY(cable_step(model, &cable_s, diag));
+    *count = bt_airframe_stable_steps(model, steps);
+    steps[(*count)++] = (bt_stable_step){"deck.cable", "landing.solver.cable_courant", cable_s,
+                                         cable_s * model->landing.solver.cable_courant};
     return BT_OK;
 }

@@ -1,6 +1,6 @@
-/// How large a step each part of a landing bears: for `bolter check`.
-#ifndef BT_CAMPAIGN_STABLE_STEP_H
-#define BT_CAMPAIGN_STABLE_STEP_H
+/// How large a step each part of a landing bears: for `bolter check`, and to refuse larger ones.
+#ifndef BT_LANDING_STABLE_STEP_H
+#define BT_LANDING_STABLE_STEP_H
 
 #include "base/diag.h"
 #include "landing/params.h"
@@ -21,10 +21,16 @@ enum { BT_STABLE_STEP_MAX = 12 };
 /// tyres      slope of the load curve at a deflection of a tenth of the radius, on piston and wheel
 /// down stop  k r^2 on the hook's inertia about its pivot, r the damper's lever
 /// shoe       slope 3/2 K delta^1/2 of Eq. 10 at the depth of an impact at the sinking velocity,
-///            delta = (5 m v^2 / (4 K))^(2/5), m the hook's mass as felt at the shoe
+///            delta = (5 m v^2 / (4 K))^(2/5), m the hook's mass as felt at the shoe, and its
+///            damping c = lambda K delta^3/2, which shortens the step to h: omega^2 h^2 + 2 (c / m)
+///            h = 4
 ///
 /// BT_ERR_INPUT (a cable that cannot be assembled, said in diag), BT_ERR_MEMORY.
 BT_CHECKED bt_status bt_stable_steps(const bt_model_params* model, bt_stable_step* steps,
                                      int* count, bt_diag* diag);
+
+/// The same without the cable, whose step follows from its mesh: cheap, cannot fail. Returns how
+/// many.
+int bt_airframe_stable_steps(const bt_model_params* model, bt_stable_step* steps);
 
 #endif
