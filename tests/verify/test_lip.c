@@ -152,10 +152,61 @@ static void with_friction_the_criterion_moves_by_the_friction_angle(void** state
     }
 }
 
+/* ---- direct or by the arm ---- */
+
+/// What a rope touches first that comes level from ahead, `rise` above the lip, the shoe level; and
+/// how far up the arm from the line opposite the lip (negative: inside the mouth).
+static bt_zone first_touch(const bt_hook_profile_params* head, double rise_m, double* beyond_m) {
+    bt_profile profile;
+    assert_int_equal(bt_profile_build(head, 2.352, 0.01825, "head", &profile, NULL), BT_OK);
+    const double c = cos(head->head_angle_rad), s = sin(head->head_angle_rad);
+    const double z = profile.lip[0] * s + profile.lip[1] * c + rise_m;
+    bt_nearest near = {.zone = BT_ZONE_COUNT};
+    double u = 0;
+    for (double x = 0.4; near.zone == BT_ZONE_COUNT && x > -0.4; x -= 1e-5) {
+        u = x * c + z * s;
+        const bt_nearest at = bt_profile_nearest(&profile, u, -x * s + z * c);
+        if (at.distance_m < 0.01825)
+            near = at;
+    }
+    *beyond_m = u - profile.lip[0];
+    return near.zone;
+}
+
+/// The head of the defaults, 52 degrees below the horizontal: what comes in clear of the lip lands
+/// on the arm, outside the mouth; what comes in lower meets the lip first. So its catches are by
+/// the arm. A mouth that faces the cable, 25 degrees below the horizontal, lets it straight into
+/// the throat.
+static void a_steep_head_catches_by_the_arm_and_a_facing_one_directly(void** state) {
+    (void)state;
+    const bt_hook_profile_params usual = head_with_lip(0.030), *head = &usual;
+    const bt_model_params facing = REFERENCE(
+        "aircraft.hook.profile.head_angle=25 deg", "aircraft.hook.profile.point_ahead=100 mm",
+        "aircraft.hook.profile.lip_radius=12 mm", "aircraft.hook.profile.shoe_radius=100 mm",
+        "aircraft.hook.profile.throat_radius=30 mm", "aircraft.hook.profile.throat_length=30 mm",
+        "aircraft.hook.profile.lip_height=40 mm");
+    const double clear = 0.01825 + head->lip_radius_m;
+    double beyond = 0, least = INFINITY;
+    for (double rise = 1e-3; rise < 0.08; rise += 1e-3) {
+        const bt_zone zone = first_touch(head, rise, &beyond);
+        assert_int_equal(zone, rise < clear ? BT_ZONE_POINT : BT_ZONE_ARM);
+        if (zone == BT_ZONE_ARM)
+            least = fmin(least, beyond);
+    }
+    BT_TABLE_ROW("hook on cable",
+                 "head of the defaults: first touch up the arm from the mouth, least, m", least,
+                 0.0, least, "outline: never direct without touching the lip");
+    assert_true(least > 0);
+    const bt_hook_profile_params* open = &facing.aircraft.hook.profile;
+    const double rise = 0.01825 + open->lip_radius_m + 1e-3;
+    assert_int_equal(first_touch(open, rise, &beyond), BT_ZONE_THROAT);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_friction_it_is_scooped_when_the_lip_lies_below_its_centre),
         cmocka_unit_test(with_friction_the_criterion_moves_by_the_friction_angle),
+        cmocka_unit_test(a_steep_head_catches_by_the_arm_and_a_facing_one_directly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
