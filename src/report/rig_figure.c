@@ -195,24 +195,72 @@ static bt_status write(drawing* d, const bt_figure* about, const char* folder, b
     return status;
 }
 
+/// Rows that are drawn, not much above 4000: a run of fine steps would make pictures of megabytes.
+static int thinned(const double* values, int rows, double* kept) {
+    const int stride = 1 + rows / 4000;
+    int count = 0;
+    for (int i = 0; i < rows; i += stride)
+        kept[count++] = values[i];
+    if (rows > 0 && (rows - 1) % stride != 0)
+        kept[count++] = values[rows - 1];
+    return count;
+}
+
+static void add_line(drawing* d, const bt_rig_record* record, const trace* line, int across,
+                     int rows) {
+    double* x = malloc((size_t)(rows + 2) * sizeof *x);
+    double* y = malloc((size_t)(rows + 2) * sizeof *y);
+    if (x && y) {
+        const int count = thinned(record->columns[across], rows, x);
+        thinned(record->columns[column_of(record, line->channel)], rows, y);
+        add(d, line->label, BT_SERIES_LINE, x, 1e3, y, count, line->scale, line->second);
+    }
+    free(x);
+    free(y);
+}
+
+/// Whether a trace says nothing that the one before does not: a strut without friction on the
+/// press.
+static bool repeats(const bt_rig_record* record, const plan* p, int t) {
+    if (t == 0 || p->traces[t].second || strcmp(p->traces[t].channel, "opening_force_N") != 0)
+        return false;
+    const double* a = record->columns[column_of(record, p->traces[t - 1].channel)];
+    const double* b = record->columns[column_of(record, p->traces[t].channel)];
+    double most = 0, apart = 0;
+    for (int i = 0; i < record->count; ++i) {
+        most = fmax(most, fabs(a[i]));
+        apart = fmax(apart, fabs(a[i] - b[i]));
+    }
+    return apart < 1e-3 * most;
+}
+
+/// Whether what lies below zero is too little to be seen: the axis then begins there.
+static bool begins_at_zero(const drawing* d) {
+    double least = 0, most = 0;
+    for (int s = 0; s < d->count; ++s)
+        for (int i = 0; i < d->series[s].count && !d->series[s].second; ++i) {
+            least = fmin(least, d->series[s].y[i]);
+            most = fmax(most, d->series[s].y[i]);
+        }
+    return -least < 0.01 * most;
+}
+
 static bt_status draw_plan(const plan* p, const bt_rig_record* record, const bt_rig_curves* curves,
                            bool* drawn, const char* folder, bt_diag* diag) {
     drawing d = {0};
     const double end = p->impact ? impact_end_s(record) : record->columns[0][record->count - 1];
     const int rows = rows_until(record, end);
     const int across = p->over_stroke ? column_of(record, "stroke_m") : 0;
-    for (int t = 0; t < TRACES_MAX && p->traces[t].channel; ++t) {
-        const trace* line = &p->traces[t];
-        const int column = column_of(record, line->channel);
-        add(&d, line->label, BT_SERIES_LINE, record->columns[across], 1e3, record->columns[column],
-            rows, line->scale, line->second);
+    for (int t = 0; t < TRACES_MAX && p->traces[t].channel; ++t)
+        if (!repeats(record, p, t))
+            add_line(&d, record, &p->traces[t], across, rows);
+    for (int t = 0; t < TRACES_MAX && p->traces[t].channel; ++t)
         for (int i = 0; i < curves->count; ++i)
             if (curves->measured[i]->x_column == across &&
-                curves->measured[i]->y_column == column) {
-                add_measured(&d, curves->measured[i], 1e3, line->scale, line->second);
+                curves->measured[i]->y_column == column_of(record, p->traces[t].channel)) {
+                add_measured(&d, curves->measured[i], 1e3, p->traces[t].scale, p->traces[t].second);
                 drawn[i] = true;
             }
-    }
     const bt_figure figure = {
         .name = p->name,
         .title = p->title,
@@ -220,6 +268,7 @@ static bt_status draw_plan(const plan* p, const bt_rig_record* record, const bt_
         .y_label = p->y_label,
         .y2_label = p->y2_label,
         .key_below = true,
+        .from_zero = begins_at_zero(&d),
     };
     return write(&d, &figure, folder, diag);
 }
