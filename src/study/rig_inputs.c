@@ -1,5 +1,6 @@
 #include "study/rig_inputs.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -187,6 +188,21 @@ void bt_rig_inputs_read_parts(bt_reader* reader, bt_document* document, bt_node*
 
 // --- together ---------------------------------------------------------------------------------
 
+/// A press that goes on after the gas is gone.
+static void check_press(bt_reader* reader, const bt_node* rigs, int kind, const bt_study* study) {
+    const bool nose = bt_rig_is_nose((bt_rig_kind)kind);
+    const bt_aircraft_params* a = &study->model.aircraft;
+    const double stroke = (nose ? study->rigs.nose_static : study->rigs.main_static).stroke_m;
+    const bt_node* node = bt_node_child(bt_node_child(rigs, bt_rig_keys[kind]), "stroke");
+    if (!node)
+        return;
+    bt_oleo oleo;
+    bt_oleo_prepare(nose ? &a->nose_gear.oleo : &a->main_gear.oleo, &oleo);
+    if (!isfinite(bt_oleo_gas_force(&oleo, stroke)))
+        bt_reader_error(reader, node->where, "rigs.%s.stroke: no gas volume is left at %g m",
+                        bt_rig_keys[kind], stroke);
+}
+
 void bt_rig_inputs_check(bt_reader* reader, const bt_node* root, const bt_study* study) {
     const bt_aircraft_params* aircraft = &study->model.aircraft;
     const bt_node* rigs = bt_node_child(root, "rigs");
@@ -201,4 +217,6 @@ void bt_rig_inputs_check(bt_reader* reader, const bt_node* root, const bt_study*
                             "rigs.%s.mass: %g kg is not above that of piston and wheel, %g kg",
                             bt_rig_keys[kind], mass, unsprung);
     }
+    for (int kind = BT_RIG_NOSE_STATIC; kind <= BT_RIG_MAIN_STATIC; ++kind)
+        check_press(reader, rigs, kind, study);
 }

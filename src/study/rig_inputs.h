@@ -21,7 +21,8 @@ bool bt_rig_inputs_alone(const bt_node* root);
 void bt_rig_inputs_read_parts(bt_reader* reader, bt_document* document, bt_node* root,
                               bt_study* study);
 
-/// What rig and aircraft must agree on: the drop mass exceeds the unsprung mass.
+/// What rig and aircraft must agree on: the drop mass exceeds the unsprung mass, and a press leaves
+/// the gas some room.
 void bt_rig_inputs_check(bt_reader* reader, const bt_node* root, const bt_study* study);
 
 #endif

@@ -68,6 +68,19 @@ static void static_rig_prints_its_points_beside_the_measured_ones(void** state) 
     assert_has(f->out, "\"points\": [");
 }
 
+static void press_beyond_the_gas_is_refused_with_its_place(void** state) {
+    fixture* f = *state;
+    char* text = NULL;
+    assert_int_equal(bt_file_read("studies/rigs/currey.yaml", &text, NULL, NULL), BT_OK);
+    char* reference = strstr(text, "    reference:");
+    assert_non_null(reference);
+    strcpy(reference, "    stroke: 20 in\n");
+    write_file(f, "press.yaml", text);
+    free(text);
+    assert_int_equal(bolter(f, "check %/press.yaml"), 3);
+    assert_has(f->err, "press.yaml:23:13: error: rigs.nose_static.stroke: no gas volume is left");
+}
+
 /// Calibration against a static curve: the fit of currey_fit.yaml.
 static void static_curve_can_be_calibrated(void** state) {
     fixture* f = *state;
@@ -221,6 +234,7 @@ int main(void) {
         TEST(rig_prints_the_promised_json_keys),
         TEST(wrong_use_is_exit_code_2),
         TEST(static_rig_prints_its_points_beside_the_measured_ones),
+        TEST(press_beyond_the_gas_is_refused_with_its_place),
         TEST(static_curve_can_be_calibrated),
         TEST(names_of_measured_curves_stay_in_the_echo),
         TEST(rig_that_the_study_lacks_is_exit_code_3),
