@@ -345,8 +345,9 @@ static void wrong_curves_are_refused_with_the_place(void** state) {
                          "curve.csv:1:11: error: strok: no such column");
     assert_curve_refused("time [s], stroke [kN]\n0, 1\n1, 2\n",
                          "curve.csv:1:11: error: stroke: the unit in brackets is wrong");
-    assert_curve_refused("time [s], stroke\n0, 1\n1, 2\n",
-                         "curve.csv:1:11: error: stroke: the unit in brackets is wrong");
+    assert_curve_refused(
+        "time [s], stroke\n0, 1\n1, 2\n",
+        "curve.csv:1:11: error: stroke: its unit is missing; write it in brackets: stroke [m]");
     assert_curve_refused("time [s], stroke [mm]\n0, 1\n0, 2\n",
                          "curve.csv:3:1: error: time does not increase");
     assert_curve_refused("time [s], stroke [mm]\n0, 1\n1, x\n",
