@@ -230,20 +230,29 @@ static double settle(const bt_cable_model* model, bt_cable_state* s, row* rows,
 
 /// Supports near or below the line between the anchors are out of Newton's sight: the rope starts
 /// clear of them. They begin above that line and are lowered a little at a time, so that they
-/// always carry.
+/// always carry; stiff ones, which would let go of the rope at once, begin soft and become twice as
+/// stiff at a time.
 static double settle_onto_supports(const bt_cable_model* model, bt_cable_state* s, row* rows,
                                    bt_cable_state* keep) {
-    static const double above_m = 0.02, lower_by_m = 4e-3;
+    static const double above_m = 0.02, lower_by_m = 4e-3, soft_Npm = 1e5;
     const bt_cable_def* d = &model->def;
+    if (d->support_y_m.count == 0)
+        return settle(model, s, rows, keep);
     const double line_m =
         fmin(s->scalars->anchor_m[0][2], s->scalars->anchor_m[1][2]) - model->radius_m;
     const double begin_m = fmax(line_m + above_m, d->support.height_m);
     const int stages = (int)ceil((begin_m - d->support.height_m) / lower_by_m);
-    bt_cable_model raised = *model;
+    bt_cable_model eased = *model;
+    eased.def.support.stiffness_Npm = fmin(d->support.stiffness_Npm, soft_Npm);
     double left = 0;
-    for (int k = 0; k < stages && isfinite(left) && d->support_y_m.count > 0; ++k) {
-        raised.def.support.height_m = begin_m - (begin_m - d->support.height_m) * k / stages;
-        left = settle(&raised, s, rows, keep);
+    for (int k = 0; k < stages && isfinite(left); ++k) {
+        eased.def.support.height_m = begin_m - (begin_m - d->support.height_m) * k / stages;
+        left = settle(&eased, s, rows, keep);
+    }
+    eased.def.support.height_m = d->support.height_m;
+    while (eased.def.support.stiffness_Npm < d->support.stiffness_Npm && isfinite(left)) {
+        left = settle(&eased, s, rows, keep);
+        eased.def.support.stiffness_Npm *= 2;
     }
     return settle(model, s, rows, keep);
 }

@@ -333,6 +333,22 @@ static void supports_below_the_sheaves_still_carry_the_cable(void** state) {
     }
 }
 
+static void supports_of_any_stiffness_and_height_find_their_equilibrium(void** state) {
+    (void)state;
+    static const double stiffness[] = {2e4, 1.2e5, 5e5, 5e6, 1e7};
+    for (int k = 0; k < 5; ++k)
+        for (double height = 0.070; height < 0.131; height += 0.015) {
+            bt_cable_params p = defaults();
+            p.supports.stiffness_Npm = stiffness[k];
+            p.supports.height_m = height;
+            rod r;
+            cable_open(&r, &p);
+            for (int i = 0; i < r.model.def.support_y_m.count; ++i)
+                assert_true(r.state.scalars->support_force_N[i] > 0);
+            bt_arena_destroy(&r.arena);
+        }
+}
+
 static void non_finite_state_is_noticed(void** state) {
     (void)state;
     const bt_cable_params p = defaults();
@@ -363,6 +379,7 @@ int main(void) {
         cmocka_unit_test(centreline_is_continuous_and_segment_at_finds_the_piece),
         cmocka_unit_test(equilibrium_says_when_the_cable_hangs_clear_of_a_support),
         cmocka_unit_test(supports_below_the_sheaves_still_carry_the_cable),
+        cmocka_unit_test(supports_of_any_stiffness_and_height_find_their_equilibrium),
         cmocka_unit_test(non_finite_state_is_noticed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

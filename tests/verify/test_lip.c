@@ -170,7 +170,33 @@ static bt_zone first_touch(const bt_hook_profile_params* head, double rise_m, do
             near = at;
     }
     *beyond_m = u - profile.lip[0];
+    if (getenv("BT_CURVES"))
+        printf("touch %.6f %.6f %.6f %s\n", (u - z * s) / c, z + profile.shoe_radius, rise_m,
+               bt_zone_name(near.zone));
     return near.zone;
+}
+
+/// Points for the figure of docs/theory/hook_on_cable.md (scripts/cable_figures.sh): the outline,
+/// in the deck's axes from the centre of the shoe arc, piece by piece with its zone.
+static void print_outline(const bt_hook_profile_params* head) {
+    bt_profile profile;
+    if (!getenv("BT_CURVES") ||
+        bt_profile_build(head, 0.2, 0.01825, "head", &profile, NULL) != BT_OK)
+        return;
+    const double c = cos(head->head_angle_rad), s = sin(head->head_angle_rad);
+    for (int i = 0; i < BT_PIECE_COUNT; ++i) {
+        const bt_piece* p = &profile.pieces[i];
+        for (int k = 0; k <= 40; ++k) {
+            const double f = k / 40.0, angle = p->from + f * (p->to - p->from);
+            const double u = p->arc ? p->centre[0] + p->radius * cos(angle)
+                                    : p->start[0] + f * (p->end[0] - p->start[0]);
+            const double w = p->arc ? p->centre[1] + p->radius * sin(angle)
+                                    : p->start[1] + f * (p->end[1] - p->start[1]);
+            printf("outline %s %.6f %.6f\n", bt_zone_name(p->zone), u * c - w * s,
+                   u * s + w * c + profile.shoe_radius);
+        }
+        printf("outline gap\n");
+    }
 }
 
 /// The head of the defaults, 52 degrees below the horizontal: what comes in clear of the lip lands
@@ -180,6 +206,7 @@ static bt_zone first_touch(const bt_hook_profile_params* head, double rise_m, do
 static void a_steep_head_catches_by_the_arm_and_a_facing_one_directly(void** state) {
     (void)state;
     const bt_hook_profile_params usual = head_with_lip(0.030), *head = &usual;
+    print_outline(head);
     const bt_model_params facing = REFERENCE(
         "aircraft.hook.profile.head_angle=25 deg", "aircraft.hook.profile.point_ahead=100 mm",
         "aircraft.hook.profile.lip_radius=12 mm", "aircraft.hook.profile.shoe_radius=100 mm",

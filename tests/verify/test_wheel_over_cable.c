@@ -130,6 +130,14 @@ typedef struct sent {
 
 static const double outer_place = 1.5, inner_place = 0.3;
 
+/// Points for the figure of docs/theory/tyre_on_cable.md (scripts/cable_figures.sh): time, height
+/// of the underside in the track, at the inner place and at the first support.
+static void print_heights(const crossing* c) {
+    if (getenv("BT_CURVES"))
+        printf("curve %.6f %.6f %.6f %.6f\n", c->time_s, underside(c, c->y_m),
+               underside(c, inner_place), underside(c, c->model.deck.cable.supports.first_m));
+}
+
 /// Lets the wheel roll over and follows the kinks that it sends inward and to the support.
 static sent follow_kinks(crossing* c) {
     const double y = c->model.aircraft.main_gear.half_track_m;
@@ -141,6 +149,7 @@ static sent follow_kinks(crossing* c) {
     sent s = {.lowest_m = 1, .rest_m = rest[2]};
     while (c->time_s < 0.2) {
         crossing_step(c);
+        print_heights(c);
         for (double at = -5; at < 5; at += 0.1)
             s.lowest_m = fmin(s.lowest_m, underside(c, at));
         for (int k = 0; k < 2; ++k)
