@@ -120,6 +120,7 @@ const bt_verb bt_verb_rig = {
         "`reference.curve' as points.\n\n"
         "  bolter rig nose-drop study.yaml\n"
         "  bolter rig hook-rebound study.yaml --set rigs.hook_rebound.sink_speed='6.3 m/s'\n"
+        "  bolter rig nose-static studies/rigs/currey.yaml    load over stroke on a press\n"
         "  bolter rig main-drop study.yaml -o drop.h5    time histories (HDF5) and no figures\n"
         "  bolter rig main-drop study.yaml -o results    histories and figures in that "
         "directory\n\n"
