@@ -195,16 +195,33 @@ static double friction_slope(const drop_rig* d, double stroke_m, double rate_mps
     return 1.5 * full / speed;
 }
 
-/// The step that is asked for, or a shorter one where the damping of the unsprung mass would be
-/// unstable: 0.8 of m / (dF/ds'), with dF_h/ds' = 2 F_h / s' and the slope of the friction. A
-/// rebound valve asks for it when the wheel has left the platform.
+/// Stiffness that the unsprung mass may feel in the next step: the tyre's, and the stop's where it
+/// comes near.
+static double stiffness(const bt_drop_params* drop, const drop_rig* d,
+                        const double channel[BT_DROP_CHANNELS]) {
+    const bt_oleo* o = &d->oleo;
+    const double ahead = channel[STROKE] + channel[STROKE_RATE] * drop->step_s;
+    const bool stops =
+        fmin(channel[STROKE], ahead) < 0 || fmax(channel[STROKE], ahead) > o->stroke_max;
+    const double deflection = channel[TYRE] + d->sink_mps * drop->step_s;
+    return bt_tyre_stiffness(&d->tyre, deflection) + (stops ? o->stop_stiffness : 0);
+}
+
+/// The step that is asked for, or a shorter one: half of 1 / omega of the unsprung mass on what it
+/// stands on; and where its damping would be unstable: 0.8 of m / (dF/ds'), with dF_h/ds' = 2 F_h /
+/// s' and the slope of the friction. A rebound valve asks for it when the wheel has left the
+/// platform.
 static double next_step(const bt_drop_params* drop, const drop_rig* d, double stroke_m,
-                        double rate_mps, double last_rate_mps) {
+                        double rate_mps, double last_rate_mps, double stiffness_Npm) {
     const double oil =
         rate_mps != 0 ? 2 * bt_oleo_oil_force(&d->oleo, stroke_m, rate_mps) / rate_mps : 0;
     const double damping = oil + friction_slope(d, stroke_m, rate_mps, last_rate_mps);
-    return damping * drop->step_s > 0.8 * d->unsprung_kg ? 0.8 * d->unsprung_kg / damping
-                                                         : drop->step_s;
+    double step = drop->step_s;
+    if (damping * step > 0.8 * d->unsprung_kg)
+        step = 0.8 * d->unsprung_kg / damping;
+    if (stiffness_Npm * step * step > 0.25 * d->unsprung_kg)
+        step = 0.5 * sqrt(d->unsprung_kg / stiffness_Npm);
+    return step;
 }
 
 static bt_status run(const bt_gear_params* gear, const bt_drop_params* drop, drop_rig* d,
@@ -219,7 +236,8 @@ static bt_status run(const bt_gear_params* gear, const bt_drop_params* drop, dro
         const double left = drop->duration_s - d->rig.state.time_s;
         d->rig.state.applied[6 * BODY_MASS + 2] = d->lift_N;
         const double rate = channel[STROKE_RATE];
-        const double step = next_step(drop, d, channel[STROKE], rate, last_rate);
+        const double step =
+            next_step(drop, d, channel[STROKE], rate, last_rate, stiffness(drop, d, channel));
         last_rate = rate;
         BT_TRY(bt_rig_step(&d->rig, fmin(step, left)));
         look(d, channel);

@@ -85,8 +85,9 @@ bt_status bt_rig_start(bt_rig* rig, double gravity_mps2) {
 
 static bt_status report(const bt_rig* rig, bt_status status, const bt_failure* failure) {
     if (status == BT_ERR_NUMERIC)
-        bt_diag_add(rig->diag, BT_ERROR, BT_NOWHERE, "%s of %s diverged at %.6g s",
-                    failure->quantity, failure->where, failure->time_s);
+        bt_diag_add(rig->diag, BT_ERROR, BT_NOWHERE,
+                    "%s of %s diverged at %.6g s; a shorter step may do", failure->quantity,
+                    failure->where, failure->time_s);
     return status;
 }
 

@@ -35,7 +35,7 @@ BT_DECLARE_GROUP(drop_reference, BT_DROP_REFERENCE_FIELDS)
     F(REAL, belt_speed, mps, OPTIONAL, 0, -150, 150, "", "speed of the belt under the wheel, backward positive (spin-up); 0: platform at rest") \
     F(REAL, gravity, mps2, OPTIONAL, 9.80665, 0, 100, "", "acceleration of gravity") \
     F(REAL, duration, s, OPTIONAL, 0.4, 1e-3, 60, "", "simulated time after touchdown [assumed]") \
-    F(REAL, step, s, OPTIONAL, 3e-4, 1e-7, 1e-2, "", "largest time step, shortened where the damping of the unsprung mass asks for it; the metrics change by less than 0.01 % when it is halved") \
+    F(REAL, step, s, OPTIONAL, 3e-4, 1e-7, 1e-2, "", "largest time step, shortened where damping or stiffness of the unsprung mass asks for it; the metrics change by less than 0.01 % when it is halved") \
     F(GROUP, reference, drop_reference, OPTIONAL, 0, 0, 0, "Tables 1-2", "the measurement to compare with")
 BT_DECLARE_GROUP(drop, BT_DROP_FIELDS)
 

@@ -93,6 +93,23 @@ static void energy_balance_drop_meets_the_published_balance(void** state) {
     accepted("studies/rigs/energy_balance.yaml", BT_RIG_NOSE_DROP, 7);
 }
 
+/// A step that is far too long for a wheel of 2 mg or a stop of 1e12 N/m is shortened, not obeyed.
+static void steps_are_shortened_for_light_wheels_and_rigid_stops(void** state) {
+    (void)state;
+    const char* const light[] = {"rigs.nose_drop.step=1 ms"};
+    const char* const rigid[] = {"rigs.main_drop.step=1 ms"};
+    bt_study study = read_study("studies/rigs/energy_balance.yaml", light, 1);
+    bt_rig_result result = run(&study, BT_RIG_NOSE_DROP);
+    for (int i = 0; i < result.metric_count; ++i)
+        assert_true(result.metrics[i].accepted);
+    bt_study_destroy(&study);
+    study = read_study("studies/rigs/tr1154.yaml", rigid, 1);
+    result = run(&study, BT_RIG_MAIN_DROP);
+    for (int i = 0; i < result.metric_count; ++i)
+        assert_true(result.metrics[i].accepted);
+    bt_study_destroy(&study);
+}
+
 /// Another integration, with straight lines between the points of the tyre: within 0.3 %.
 static void drop_with_a_wheel_of_5_lb_meets_another_integration(void** state) {
     (void)state;
@@ -229,6 +246,7 @@ int main(void) {
         cmocka_unit_test(reference_legs_agree_with_another_code_within_a_percent),
         cmocka_unit_test(tr_1154_drop_from_its_file),
         cmocka_unit_test(energy_balance_drop_meets_the_published_balance),
+        cmocka_unit_test(steps_are_shortened_for_light_wheels_and_rigid_stops),
         cmocka_unit_test(drop_with_a_wheel_of_5_lb_meets_another_integration),
         cmocka_unit_test(open_gears_meet_another_integration),
         cmocka_unit_test(one_chamber_follows_curreys_static_curve),
