@@ -377,9 +377,12 @@ static double end_energy(const bt_cable_model* model, const bt_cable_state* s, i
 static double contact_energy(const bt_cable_model* model, const bt_cable_state* s) {
     const bt_cable_def* d = &model->def;
     double energy = 0;
-    for (int i = 0; i < model->count; ++i) {
-        const double depth = fmax(0, model->radius_m - s->z[i]);
-        energy += model->half_m[i] * d->deck_contact.stiffness_Npm2 * depth * depth;
+    for (int i = 0; i < model->count; ++i) { /* at the kernel's two points of each segment */
+        const double rise = 0.57735026918962576 * model->half_m[i] * s->tz[i];
+        const double before = fmax(0, model->radius_m - s->z[i] + rise);
+        const double after = fmax(0, model->radius_m - s->z[i] - rise);
+        energy += 0.5 * model->half_m[i] * d->deck_contact.stiffness_Npm2 *
+                  (before * before + after * after);
     }
     for (int k = 0; k < d->support_y_m.count; ++k) {
         const double y = d->support_y_m.value[k];

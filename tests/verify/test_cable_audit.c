@@ -343,6 +343,43 @@ static void stable_step_is_stable_and_not_far_from_the_limit(void** state) {
     }
 }
 
+/// A tilted, swinging rope that bounces on a deck without loss: its energy is the same in the air
+/// and while any part of it is pressed into the deck.
+static void energy_on_a_deck_without_loss_is_kept(void** state) {
+    (void)state;
+    double drift[2];
+    for (int k = 0; k < 2; ++k) {
+        bt_cable_def def = rope_def(20, 2);
+        def.gravity_mps2 = 9.80665;
+        def.deck = true;
+        def.deck_contact =
+            (bt_cable_deck_params){.stiffness_Npm2 = 1e7, .restitution = 1, .slip_speed_mps = 0.1};
+        def.end[0].anchor_m[2] = 0.03;
+        def.end[1].anchor_m[2] = 0.23; /* one end lands first */
+        rope r;
+        rope_open(&r, &def, 2);
+        for (int i = 0; i < 20; ++i)
+            r.state.vz[i] = -2;
+        const double step = (k ? 0.1 : 0.2) * r.model.stable_step_s;
+        rope_run(&r, 1, step);
+        bt_cable_energy e;
+        bt_cable_audit(&r.model, &r.state, &e);
+        const double start = total(&e);
+        drift[k] = 0;
+        double pressed = 0;
+        while (r.state.scalars->time_s < 0.2) {
+            rope_run(&r, 20, step);
+            bt_cable_audit(&r.model, &r.state, &e);
+            drift[k] = fmax(drift[k], fabs(total(&e) / start - 1));
+            pressed = fmax(pressed, e.elastic_J / start);
+        }
+        assert_true(pressed > 0.05); /* the contact's energy matters */
+        rope_close(&r);
+    }
+    print_message("energy on the deck: within %.2g, at half the step %.2g\n", drift[0], drift[1]);
+    assert_true(drift[0] < 2e-3 && drift[1] < 0.5 * drift[0]);
+}
+
 /// Lengths that alternate, jump, or are random, with short ends and long ones: at the stable step
 /// the energy of an undamped rope stays what it was.
 static void stable_step_holds_on_uneven_meshes(void** state) {
@@ -395,6 +432,7 @@ int main(void) {
         cmocka_unit_test(kernel_levels_agree_to_rounding),
         cmocka_unit_test(stable_step_is_stable_and_not_far_from_the_limit),
         cmocka_unit_test(stable_step_holds_on_uneven_meshes),
+        cmocka_unit_test(energy_on_a_deck_without_loss_is_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
