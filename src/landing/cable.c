@@ -434,6 +434,34 @@ static double sag_ratio(const bt_cable_model* model, double span) {
     return weight / (8 * low);
 }
 
+/// A rope much longer than the line between its ends hangs as a catenary of its length: with
+/// arguments b - a .. b + a of scale p, sinh(a) / a = sqrt(L^2 - rise^2) / span, tanh(b) = rise /
+/// L.
+static void place_slack(const bt_cable_model* model, bt_cable_state* state, double length) {
+    const double* from = model->def.end[0].anchor_m;
+    const double* to = model->def.end[1].anchor_m;
+    const double span = to[1] - from[1], rise = to[2] - from[2];
+    const double ratio = sqrt(length * length - rise * rise) / span;
+    double low = 1e-9, high = 50;
+    for (int k = 0; k < 100; ++k) {
+        const double a = 0.5 * (low + high);
+        if (sinh(a) / a < ratio)
+            low = a;
+        else
+            high = a;
+    }
+    const double p = 0.5 * span / low, first = atanh(rise / length) - low;
+    for (int i = 0; i < model->count; ++i) {
+        const double along = length * (model->rest_y_m[i] - from[1]) / span;
+        const double at = asinh(along / p + sinh(first)), slope = atan(sinh(at));
+        state->y[i] = from[1] + p * (at - first);
+        state->z[i] = from[2] + p * (cosh(at) - cosh(first));
+        state->e0[i] = cos(0.5 * slope);
+        state->e1[i] = sin(0.5 * slope);
+        bt_cable_set_axis(state, i);
+    }
+}
+
 void bt_cable_place(const bt_cable_model* model, bt_cable_state* state) {
     const bt_cable_def* d = &model->def;
     memset(state->block, 0, state->block_size);
@@ -456,6 +484,11 @@ void bt_cable_place(const bt_cable_model* model, bt_cable_state* state) {
         state->e1[i] = sin(0.5 * slope);
         bt_cable_set_axis(state, i);
     }
+    double length = 0;
+    for (int i = 0; i < model->count; ++i)
+        length += 2 * model->half_m[i];
+    if (sag > 0 && length > 1.2 * hypot(span, along[2]))
+        place_slack(model, state, length);
     for (int k = 0; k < 2; ++k) {
         memcpy(state->scalars->anchor_m[k], d->end[k].anchor_m, sizeof d->end[k].anchor_m);
         state->scalars->anchor_e[k][0] = 1;

@@ -189,7 +189,7 @@ BT_CHECKED bt_status bt_cable_state_init(const bt_cable_model* model, bt_cable_s
                                          bt_arena* arena);
 
 /// Puts every segment at rest on the straight line between the anchors, without loads, time 0.
-/// A rope longer than the line sags as a parabola in the plane x = 0.
+/// A rope a little longer than the line sags as a parabola, a much longer one hangs as a catenary.
 void bt_cable_place(const bt_cable_model* model, bt_cable_state* state);
 
 /// Copies everything; both states belong to the same model.

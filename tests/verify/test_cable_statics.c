@@ -41,6 +41,61 @@ static void elastic_catenary_ssnl114_sag_and_tension(void** state) {
     }
 }
 
+/// Span and rise of an elastic catenary from the horizontal pull H and the vertical pull V at the
+/// upper (far) end: closed form (Irvine, Cable Structures, 1981).
+static void catenary(double h, double v, double weight, double ea, double length, double at[2]) {
+    const double low = v - weight; /* vertical pull at the near end */
+    const double per_m = weight / length;
+    at[0] = h * length / ea + h / per_m * (asinh(v / h) - asinh(low / h));
+    at[1] = length / ea * (v - 0.5 * weight) + (hypot(h, v) - hypot(h, low)) / per_m;
+}
+
+/// The pulls that reach span and rise, by Newton's method with differences.
+static void pulls_of(double span, double rise, double weight, double ea, double length,
+                     double pull[2]) {
+    pull[0] = 0.25 * weight * span / length;
+    pull[1] = 0.5 * weight;
+    for (int k = 0; k < 300; ++k) {
+        const double dh = 1e-5 * pull[0], dv = 1e-5 * weight;
+        double at[2], by_h[2], by_v[2];
+        catenary(pull[0], pull[1], weight, ea, length, at);
+        catenary(pull[0] + dh, pull[1], weight, ea, length, by_h);
+        catenary(pull[0], pull[1] + dv, weight, ea, length, by_v);
+        const double a = (by_h[0] - at[0]) / dh, b = (by_v[0] - at[0]) / dv;
+        const double c = (by_h[1] - at[1]) / dh, d = (by_v[1] - at[1]) / dv;
+        const double ex = at[0] - span, ez = at[1] - rise, det = a * d - b * c;
+        const double step_h = (d * ex - b * ez) / det, step_v = (a * ez - c * ex) / det;
+        const double part = fmin(1, 0.3 * pull[0] / fabs(step_h));
+        pull[0] -= part * step_h;
+        pull[1] -= part * step_v;
+    }
+}
+
+static void elastic_catenaries_taut_to_slack_with_ends_at_any_height(void** state) {
+    (void)state;
+    const double span = 10, ratios[] = {1.002, 1.05, 1.21, 1.5, 3, 5}, rises[] = {0, 0.05, 2.5};
+    for (int q = 0; q < 6; ++q)
+        for (int k = 0; k < 3; ++k) {
+            if (hypot(span, rises[k]) > 0.999 * ratios[q] * span)
+                continue;
+            bt_cable_def def = rope_def(200, 1);
+            def.bending_stiffness_Nm2 = 0;
+            def.gravity_mps2 = 9.81;
+            def.axial_stiffness_N = 1e6;
+            def.end[0].kind = def.end[1].kind = BT_CABLE_PINNED;
+            def.end[1].anchor_m[1] = span;
+            def.end[1].anchor_m[2] = rises[k];
+            rope r;
+            rope_open(&r, &def, ratios[q] * span);
+            assert_int_equal(bt_cable_equilibrium(&r.model, &r.state, NULL, NULL), BT_OK);
+            double pull[2];
+            pulls_of(span, rises[k], 5.536 * 9.81 * ratios[q] * span, 1e6, ratios[q] * span, pull);
+            BT_ASSERT_NEAR(r.state.joint_fy[100], pull[0], 2e-5, 0);
+            BT_ASSERT_NEAR(r.state.joint_fz[200], pull[1], 2e-5, 0);
+            rope_close(&r);
+        }
+}
+
 /* Cantilever with a dead tip load across it: validation data D.5. */
 static void bend(int count, double load, double out[3]) {
     bt_cable_def def = rope_def(count, 1);
@@ -232,6 +287,7 @@ static void rest_shape_converges_with_the_segments(void** state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(elastic_catenary_ssnl114_sag_and_tension),
+        cmocka_unit_test(elastic_catenaries_taut_to_slack_with_ends_at_any_height),
         cmocka_unit_test(elastica_tip_of_a_cantilever_large_rotation),
         cmocka_unit_test(roll_up_to_a_full_circle_by_an_end_moment),
         cmocka_unit_test(twist_of_a_rod_under_an_end_torque),
