@@ -306,8 +306,11 @@ static void read_trend(reading* r, bt_target* t, const bt_node* node, const bt_n
     }
     snprintf(place, sizeof place, "%s.tolerance", path);
     read_tolerance(r, tolerance, t->token, place, &t->tolerance, &t->relative);
-    if (e->override_count == BT_OVERRIDE_MAX)
+    if (e->override_count == BT_OVERRIDE_MAX) {
+        bt_reader_error(&r->reader, over->where, "%s: with `over`, more than %d keys differ", path,
+                        BT_OVERRIDE_MAX);
         return;
+    }
     const int count = read_trend_values(r, node, over, path, &override, values);
     add_experiments(r, t, e, node, &override, values, count);
     t->row_count = count > 0 ? count - 1 : 0;

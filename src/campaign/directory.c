@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+enum { FILE_SIZE_MAX = 1 << 30 }; // a device may never end
+
 static bt_status fail(bt_diag* diag, const char* path, const char* what, int code) {
     bt_diag_add(diag, BT_ERROR, (bt_where){.file = path}, "%s: %s", what, strerror(code));
     return BT_ERR_IO;
@@ -124,6 +126,10 @@ static bt_status read_open(const char* path, FILE* file, char** data, size_t* si
         used += fread(text + used, 1, room - used - 1, file);
         if (used < room - 1)
             break;
+        if (room >= FILE_SIZE_MAX) {
+            free(text);
+            return fail(diag, path, "cannot read", EFBIG);
+        }
         char* larger = realloc(text, room *= 2);
         if (!larger)
             free(text);

@@ -35,7 +35,7 @@ BT_CHECKED bt_status bt_file_path(char* buffer, const char* directory, const cha
 BT_CHECKED bt_status bt_file_write(const char* path, const char* data, size_t size, bt_diag* diag);
 
 /// Reads a whole file into memory that the caller frees; a zero byte follows the data. size may be
-/// NULL. BT_ERR_IO, said in diag; BT_ERR_MEMORY.
+/// NULL. BT_ERR_IO, said in diag (also from 1 GiB on); BT_ERR_MEMORY.
 BT_CHECKED bt_status bt_file_read(const char* path, char** data, size_t* size, bt_diag* diag);
 
 #endif

@@ -271,9 +271,9 @@ const bt_verb bt_verb_calibrate = {
         "of a calibration file (see studies/reference/calibration.yaml): values with tolerances, "
         "bounds, trends, measured curves. Prints the fit, how sensitive each target is, and which "
         "parameters and combinations of them the data do not identify.\n\n"
-        "  bolter calibrate study.yaml calibration.yaml       writes STUDY/calibrated.yaml, or -o "
-        "FILE\n"
-        "  bolter land study.yaml --set @study/calibrated.yaml      uses what was found",
+        "  bolter calibrate study.yaml calibration.yaml           writes what it found\n"
+        "  bolter land study.yaml --set @study/calibrated.yaml    uses it\n\n"
+        "What is found goes into calibrated.yaml in the study directory, or where -o says.",
     .least_words = 2,
     .most_words = 2,
     .run = run,

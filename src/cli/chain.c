@@ -2,9 +2,21 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 bt_status bt_chain_file(const bt_chain* chain, const char* name, char* path) {
     return bt_file_path(path, chain->study.directory, name);
+}
+
+/// study.yaml of the study directory; the user's own file, where it is that one, stays as it is.
+static bt_status write_study(bt_chain* chain) {
+    char path[BT_FILE_PATH_MAX];
+    struct stat given, kept;
+    BT_TRY(bt_chain_file(chain, "study.yaml", path));
+    if (stat(chain->command->words[0], &given) == 0 && stat(path, &kept) == 0 &&
+        given.st_dev == kept.st_dev && given.st_ino == kept.st_ino)
+        return BT_OK;
+    return bt_file_write(path, chain->study.text, strlen(chain->study.text), &chain->diag);
 }
 
 static bt_status open_ledger(bt_chain* chain, bt_ledger_access how) {
@@ -15,10 +27,7 @@ static bt_status open_ledger(bt_chain* chain, bt_ledger_access how) {
     BT_TRY(bt_ledger_open(path, &chain->study, how, &chain->ledger, &chain->diag));
     if (how == BT_LEDGER_WRITE)
         BT_TRY(bt_directory_open(&chain->directory, chain->study.directory, &chain->diag));
-    if (how == BT_LEDGER_READ)
-        return BT_OK;
-    BT_TRY(bt_chain_file(chain, "study.yaml", path));
-    return bt_file_write(path, chain->study.text, strlen(chain->study.text), &chain->diag);
+    return how == BT_LEDGER_READ ? BT_OK : write_study(chain);
 }
 
 bt_status bt_chain_open(const bt_command* command, bt_ledger_access how, bt_chain* chain) {

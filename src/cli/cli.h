@@ -62,6 +62,9 @@ BT_CHECKED bt_status bt_command_rigs(const bt_command* command, bt_study* study)
 bt_status bt_usage_error(const bt_command* command, const char* format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/// For a verb that only prints: -o is a wrong use.
+bt_status bt_refuse_output(const bt_command* command);
+
 /// A whole number of an option; false (said on stderr) when it is not one from `least` on.
 bool bt_whole_number(const bt_command* command, const char* name, const char* text, int64_t least,
                      int64_t* value);

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const struct argp_option common_options[] = {
     {"set", 's', "PATH=VALUE", 0,
@@ -17,6 +18,16 @@ static const struct argp_option common_options[] = {
     {"quiet", 'q', 0, 0, "no progress, no remarks; errors are still printed", 10},
     {0},
 };
+
+/// The ways to use a verb stand one per line in its row.
+static void refuse_too_few(struct argp_state* state, const bt_verb* verb) {
+    char wanted[512];
+    snprintf(wanted, sizeof wanted, "%s", verb->arguments);
+    for (char* c = wanted; *c; ++c)
+        if (*c == '\n')
+            *c = '|';
+    argp_error(state, "%s expected", wanted);
+}
 
 static error_t parse_option(int key, char* argument, struct argp_state* state) {
     bt_command* command = state->input;
@@ -48,7 +59,7 @@ static error_t parse_option(int key, char* argument, struct argp_state* state) {
         return 0;
     case ARGP_KEY_END:
         if (command->word_count < command->verb->least_words)
-            argp_error(state, "%s expected", command->verb->arguments);
+            refuse_too_few(state, command->verb);
         return 0;
     default:
         if (key < BT_OPTION || key >= BT_OPTION + BT_OWN_OPTIONS_MAX)
@@ -110,9 +121,26 @@ bt_diag bt_stderr_diag(void) {
 typedef bt_status study_reader(const char* path, const char* const* sets, int set_count,
                                bt_study* study, bt_diag* diag);
 
+/// Whether -o names a file that the command reads: what it writes would take its place.
+static bool is_input(const bt_command* command) {
+    struct stat output, input;
+    if (stat(command->output, &output) != 0 || S_ISDIR(output.st_mode))
+        return false;
+    for (int i = 0; i < command->word_count; ++i)
+        if (stat(command->words[i], &input) == 0 && input.st_dev == output.st_dev &&
+            input.st_ino == output.st_ino)
+            return true;
+    return false;
+}
+
 static bt_status read_study(const bt_command* command, study_reader* read, bt_study* study) {
     bt_diag diag = bt_stderr_diag();
     const char* file = command->words[0];
+    if (command->output && strlen(command->output) >= sizeof study->directory)
+        return bt_usage_error(command, "-o: the name is too long");
+    if (command->output && is_input(command))
+        return bt_usage_error(command, "-o: %s is read by this command and would be lost",
+                              command->output);
     const bt_status status = read(file, command->sets, command->set_count, study, &diag);
     if (status != BT_OK) {
         fprintf(stderr, "%s: %d error%s, nothing was run\n", file, diag.errors,
@@ -140,6 +168,14 @@ bt_status bt_usage_error(const bt_command* command, const char* format, ...) {
     va_end(args);
     fprintf(stderr, "\nTry `bolter %s --help' for more information.\n", command->verb->name);
     return BT_ERR_ARG;
+}
+
+bt_status bt_refuse_output(const bt_command* command) {
+    return command->output ? bt_usage_error(command,
+                                            "writes no files; take what it prints: "
+                                            "bolter %s ... > FILE",
+                                            command->verb->name)
+                           : BT_OK;
 }
 
 bool bt_whole_number(const bt_command* command, const char* name, const char* text, int64_t least,

@@ -10,6 +10,9 @@ static void print(void* user, const char* text) {
 static bt_status run(const bt_command* command) {
     if (command->json)
         return bt_usage_error(command, "there is no --json form of the keys");
+    if (command->set_count > 0)
+        return bt_usage_error(command, "there is no study here that --set could change");
+    BT_TRY(bt_refuse_output(command));
     if (command->option[0])
         bt_study_defaults(print, NULL);
     else

@@ -1,9 +1,10 @@
 #include "cli/cli.h"
 #include "cli/version.h"
 
-#include "base/text.h"
 #include "campaign/arithmetic.h"
+#include "study/reader.h"
 
+#include <limits.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -58,12 +59,13 @@ static const bt_verb* find_verb(const char* name) {
 }
 
 static int refuse_verb(const char* name) {
-    const bt_verb* nearest = verbs[0];
-    for (int i = 1; i < VERB_COUNT; ++i)
-        if (bt_text_distance(name, verbs[i]->name) < bt_text_distance(name, nearest->name))
-            nearest = verbs[i];
-    fprintf(stderr, "bolter: unknown verb \"%s\"; did you mean \"%s\"? See bolter --help\n", name,
-            nearest->name);
+    const char* nearest = NULL;
+    int distance = INT_MAX;
+    char hint[64];
+    for (int i = 0; i < VERB_COUNT; ++i)
+        bt_reader_nearest(name, verbs[i]->name, &nearest, &distance);
+    bt_reader_suggest(name, nearest, distance, hint, sizeof hint);
+    fprintf(stderr, "bolter: unknown verb \"%s\"%s See bolter --help\n", name, *hint ? hint : ".");
     return bt_exit_code(BT_ERR_ARG);
 }
 

@@ -2,6 +2,14 @@
 
 #include <stdio.h>
 
+/// The ledger may hold more landings than the study now asks for; all of them train the surrogate.
+static void print_more(const bt_surrogate* surrogate, const bt_campaign_progress* progress) {
+    const int trained = surrogate->scores.train_count + surrogate->scores.holdout_count;
+    if (trained > progress->done - progress->failed)
+        printf("ledger        %d landings of this and earlier runs, all of them used below\n",
+               trained);
+}
+
 static bt_status run_chain(bt_chain* chain) {
     const bool talk = !chain->command->quiet && !chain->command->json;
     bt_campaign_progress progress;
@@ -14,6 +22,7 @@ static bt_status run_chain(bt_chain* chain) {
         printf("campaign      %lld landings: %lld engaged, %lld missed, %lld failed\n",
                (long long)progress.done, (long long)progress.engaged, (long long)progress.missed,
                (long long)progress.failed);
+        print_more(&surrogate, &progress);
         bt_surrogate_print(stdout, &surrogate);
         printf("\n");
         fflush(stdout);

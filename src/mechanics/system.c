@@ -120,10 +120,6 @@ void bt_system_set_gravity(bt_system* system, const double gravity_mps2[3]) {
     memcpy(system->gravity_mps2, gravity_mps2, sizeof system->gravity_mps2);
 }
 
-int bt_system_body_count(const bt_system* system) {
-    return system->body_count;
-}
-
 int bt_system_constraint_count(const bt_system* system) {
     return system->constraint_count;
 }

@@ -138,7 +138,6 @@ void bt_system_set_gravity(bt_system* system, const double gravity_mps2[3]);
 /// BT_ERR_INPUT, BT_ERR_MEMORY.
 BT_CHECKED bt_status bt_system_assemble(bt_system* system, bt_diag* diag);
 
-int bt_system_body_count(const bt_system* system);
 int bt_system_constraint_count(const bt_system* system);
 int bt_system_redundant_count(const bt_system* system); ///< dependent constraint rows at assembly
 int bt_system_body_find(const bt_system* system, const char* name);

@@ -271,6 +271,24 @@ static void put_defaults(const writer* w, const bt_group* group, int depth) {
     }
 }
 
+/// What has no default, as an example to be changed: without it there is nothing to run.
+static const struct {
+    const char *after, *text; ///< the chapter that it follows, or that it ends
+} examples[] = {
+    {"landing",
+     "\n# which keys scatter, and how; an example: any numeric key of aircraft, deck and landing\n"
+     "uncertainty:\n"
+     "  landing.sink_speed: {distribution: normal, sd: 0.9 m/s}\n"
+     "  landing.distance: {distribution: normal, sd: 1 m}\n"},
+    {"campaign", "  # axes of the design and their ranges; an example\n"
+                 "  bounds:\n"
+                 "    landing.sink_speed: [0.9 m/s, 6.3 m/s]\n"
+                 "    landing.distance: [0.5 m, 12.5 m]\n"},
+    {"reliability", "  # means to go through one by one, each a condition; an example\n"
+                    "  conditions:\n"
+                    "    landing.distance: [4 m, 6 m, 8 m]\n"},
+};
+
 void bt_study_defaults(bt_text_sink* write, void* user) {
     const writer w = {write, user};
     put(&w, "# A complete study: every key with its default, or where it is required, a value to\n"
@@ -279,7 +297,8 @@ void bt_study_defaults(bt_text_sink* write, void* user) {
     for (int i = 0; i < CHAPTERS; ++i) {
         put(&w, "\n# %s\n%s:\n", chapters[i].group->text, chapters[i].name);
         put_defaults(&w, chapters[i].group, 1);
-        if (strcmp(chapters[i].name, "landing") == 0)
-            put(&w, "\n# which keys scatter, and how\nuncertainty: {}\n");
+        for (size_t k = 0; k < sizeof examples / sizeof examples[0]; ++k)
+            if (strcmp(chapters[i].name, examples[k].after) == 0)
+                put(&w, "%s", examples[k].text);
     }
 }

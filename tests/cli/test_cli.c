@@ -47,6 +47,8 @@ static void wrong_use_is_exit_code_2(void** state) {
     assert_int_equal(bolter(f, ""), 2);
     assert_int_equal(bolter(f, "chekc " REFERENCE), 2);
     assert_has(f->err, "did you mean \"check\"?");
+    assert_int_equal(bolter(f, "aircraft"), 2);
+    assert_null(strstr(f->err, "did you mean"));
     assert_int_equal(bolter(f, "check"), 2);
     assert_has(f->err, "STUDY.yaml expected");
     assert_int_equal(bolter(f, "check " REFERENCE " more"), 2);
@@ -55,6 +57,44 @@ static void wrong_use_is_exit_code_2(void** state) {
     assert_has(f->err, "not a whole number");
     assert_int_equal(bolter(f, "campaign " REFERENCE " -o % --shard 9/8"), 2);
     assert_int_equal(bolter(f, "campaign merge " REFERENCE), 2);
+}
+
+static void the_defaults_are_a_study_that_can_be_run(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "keys --defaults"), 0);
+    write_file(f, "mine.yaml", f->out);
+    assert_int_equal(bolter(f, "check %/mine.yaml"), 0);
+    assert_has(f->out, "over landing.sink_speed, landing.distance");
+    assert_has(f->out, "3 conditions");
+    assert_string_equal(f->err, "");
+}
+
+static void what_a_command_reads_is_never_written_over(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "keys --defaults"), 0);
+    char* study = strdup(f->out);
+    write_file(f, "study.yaml", study);
+    static const char* const commands[] = {"land %/study.yaml -o %/study.yaml",
+                                           "rig nose-drop %/study.yaml -o %/study.yaml",
+                                           "calibrate %/study.yaml %/none.yaml -o %/study.yaml"};
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; ++i) {
+        assert_int_equal(bolter(f, commands[i]), 2);
+        assert_has(f->err, "would be lost");
+    }
+    // the study directory keeps a study.yaml of its own, unless the study is that file
+    assert_int_equal(bolter(f, "campaign %/study.yaml -o % --set campaign.samples=1"), 0);
+    char* after = read_text(f, "study.yaml");
+    assert_string_equal(after, study);
+    free(after);
+    free(study);
+}
+
+static void a_verb_that_only_prints_takes_no_o(void** state) {
+    fixture* f = *state;
+    static const char* const commands[] = {"keys -o %/x", "noise " REFERENCE " -o %/x",
+                                           "sensitivity " REFERENCE " -o %/x"};
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; ++i)
+        assert_int_equal(bolter(f, commands[i]), 2);
 }
 
 static void check_accepts_the_reference_and_prints_stable_steps(void** state) {
@@ -275,6 +315,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(help_and_version_are_no_errors),
         TEST(wrong_use_is_exit_code_2),
+        TEST(the_defaults_are_a_study_that_can_be_run),
+        TEST(what_a_command_reads_is_never_written_over),
+        TEST(a_verb_that_only_prints_takes_no_o),
         TEST(check_accepts_the_reference_and_prints_stable_steps),
         TEST(a_mesh_too_fine_for_the_memory_of_a_landing_is_refused),
         TEST(a_step_above_the_stable_one_is_refused_with_the_step_that_would_do),
