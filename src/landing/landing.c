@@ -20,7 +20,7 @@ static const size_t arena_size = 900 * 1024;
 struct bt_lander {
     bt_arena arena;
     size_t airframe_mark;  ///< of the arena: what follows belongs to the cable
-    bt_model_params built; ///< the parameters that airframe and cable were built from
+    bt_model_params built; ///< what airframe and cable, where there are any, were built from
     bool has_airframe, has_cable;
 
     bt_airframe airframe;
@@ -460,8 +460,9 @@ bt_status bt_lander_run(bt_lander* lander, const bt_model_params* params, bt_lan
                         bt_landing_observer* observer, void* user, bt_diag* diag) {
     const double begin_s = clock_s();
     BT_TRY(prepare_airframe(lander, params, diag));
-    BT_TRY(prepare_cable(lander, params, diag));
-    lander->built = *params;
+    const bt_status status = prepare_cable(lander, params, diag);
+    lander->built = *params; // also when the cable is refused: the airframe may be a new one
+    BT_TRY(status);
 
     run r = {.lander = lander, .params = params, .result = result};
     start(&r);

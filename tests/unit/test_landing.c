@@ -315,6 +315,20 @@ static void a_mesh_beyond_the_memory_is_refused_with_the_reason(void** state) {
     bt_lander_destroy(lander);
 }
 
+static void a_refused_landing_leaves_no_trace_in_the_next(void** state) {
+    (void)state;
+    const bt_model_params model = REFERENCE("landing.distance=1 m");
+    bt_model_params refused = model;
+    refused.aircraft.mass_kg *= 1.2;
+    refused.deck.cable.mesh.fine_length_m = 0.005;
+    bt_lander* lander = new_lander();
+    bt_landing_result r;
+    const bt_landing_result before = land(lander, &model, NULL, NULL);
+    assert_int_equal(bt_lander_run(lander, &refused, &r, NULL, NULL, NULL), BT_ERR_INPUT);
+    assert_true(land(lander, &model, NULL, NULL).state_hash == before.state_hash);
+    bt_lander_destroy(lander);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_way_to_end_has_a_landing),
@@ -327,6 +341,7 @@ int main(void) {
         cmocka_unit_test(the_margin_goes_through_zero_where_the_label_changes),
         cmocka_unit_test(a_landing_in_flight_takes_at_most_a_megabyte),
         cmocka_unit_test(a_mesh_beyond_the_memory_is_refused_with_the_reason),
+        cmocka_unit_test(a_refused_landing_leaves_no_trace_in_the_next),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
