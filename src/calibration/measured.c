@@ -78,7 +78,8 @@ static bt_status read_header(cursor* c, bt_measured* m, bt_diag* diag) {
     BT_TRY(read_heading(c, m->x_name, m->x_unit, sizeof m->x_unit, &m->x_place, diag));
     if (*c->at != ',') {
         bt_diag_add(diag, BT_ERROR, place(c),
-                    "a comma and a second column are wanted here, as in: time [s], stroke [mm]");
+                    "a comma and a second column are wanted here, as in: time [s], stroke [mm]%s",
+                    *c->at == ';' ? "; semicolons and decimal commas are not read" : "");
         return BT_ERR_INPUT;
     }
     ++c->at;

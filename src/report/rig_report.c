@@ -7,18 +7,29 @@
 
 // --- measured curves --------------------------------------------------------------------------
 
+/// Where a curve is named, and who is told about it.
+typedef struct naming {
+    bt_where where;
+    bt_diag* diag;
+} naming;
+
+/// What is wrong with a whole file is said where the study names it, the rest at its place there.
+static void place(void* user, bt_severity severity, bt_where where, const char* text) {
+    const naming* n = user;
+    if (where.line > 0)
+        bt_diag_add(n->diag, severity, where, "%s", text);
+    else
+        bt_diag_add(n->diag, severity, n->where, "curve: \"%s\": %s", where.file, text);
+}
+
 static bt_status read_curve(const bt_rig_input* input, int i, const bt_rig_record* names,
                             bt_rig_curves* curves, bt_diag* diag) {
     bt_measured* measured = NULL;
-    bt_diag silent = {0};
-    bt_status status = bt_measured_read(input->curves[i].path, &measured, &silent);
-    if (status == BT_ERR_IO) {
-        bt_diag_add(diag, BT_ERROR, input->curves[i].where, "curve: \"%s\" cannot be read",
-                    input->curves[i].path);
+    naming named = {input->curves[i].where, diag};
+    bt_diag placing = {.sink = place, .user = &named};
+    bt_status status = bt_measured_read(input->curves[i].path, &measured, &placing);
+    if (status != BT_OK)
         return status;
-    }
-    if (status != BT_OK) // once more, to be heard
-        return bt_measured_read(input->curves[i].path, &measured, diag);
     status = bt_measured_bind(measured, names->names, names->column_count, diag);
     if (status != BT_OK)
         bt_measured_destroy(measured);

@@ -243,6 +243,10 @@ bt_status bt_document_parse(bt_document* document, const char* data, size_t size
                     (int)BT_DOCUMENT_SIZE_MAX);
         return BT_ERR_INPUT;
     }
+    if (size >= 3 && memcmp(data, "\xef\xbb\xbf", 3) == 0) { // the mark that some editors write
+        data += 3;
+        size -= 3;
+    }
     parser p = {.document = document, .where = where, .diag = diag, .status = BT_OK};
     if (!yaml_parser_initialize(&p.yaml))
         return BT_ERR_MEMORY;

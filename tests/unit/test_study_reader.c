@@ -108,6 +108,13 @@ static void json_is_yaml(void** state) {
     assert_says("{\"number\": 3, \"left\": {\"length\": \"1 m\"}}", "");
 }
 
+static void a_byte_order_mark_and_windows_lines_are_no_mistake(void** state) {
+    (void)state;
+    assert_says("\xef\xbb\xbfnumber: 3\r\nleft: {length: 1 m}\r\n", "");
+    assert_says("\xef\xbb\xbfnumbr: 3\r\nleft: {length: 1 m}\r\n",
+                "a.yaml:1:1: error: w.numbr: unknown key; did you mean \"number\"?\n");
+}
+
 static void unknown_keys_get_the_nearest_right_one(void** state) {
     (void)state;
     assert_line_says("tlit: 1 deg",
@@ -371,6 +378,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind_of_value_is_read),
         cmocka_unit_test(json_is_yaml),
+        cmocka_unit_test(a_byte_order_mark_and_windows_lines_are_no_mistake),
         cmocka_unit_test(unknown_keys_get_the_nearest_right_one),
         cmocka_unit_test(a_misspelt_key_is_one_error_not_two),
         cmocka_unit_test(keys_given_twice),
