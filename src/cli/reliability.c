@@ -1,4 +1,5 @@
 #include "cli/chain.h"
+#include "reliability/sobol_indices.h"
 #include "report/reliability_report.h"
 
 #include <inttypes.h>
@@ -124,12 +125,89 @@ bt_status bt_chain_reliability(bt_chain* chain, bool again, const bt_surrogate* 
     return status;
 }
 
+// --- indices ----------------------------------------------------------------------------------
+
+static void print_indices(const bt_study* study, const bt_sobol_result* r) {
+    printf("%-26s %-26s %s\n", "input", "alone", "with all its interactions");
+    for (int k = 0; k < r->dims; ++k)
+        if (study->inputs[k].random)
+            printf("%-26s %6.3f [%6.3f, %6.3f]    %6.3f [%6.3f, %6.3f]\n", study->inputs[k].path,
+                   r->first[k].value, r->first[k].ci95.least, r->first[k].ci95.greatest,
+                   r->total[k].value, r->total[k].ci95.least, r->total[k].ci95.greatest);
+    printf("shares of the variance of the surrogate's outcomes, R = %.4f, %lld samples; 95 %% "
+           "intervals of the sampling alone\n",
+           r->mean, (long long)r->evaluations);
+}
+
+static void write_index(bt_json* json, const char* key, const bt_index* index) {
+    char limits[32];
+    snprintf(limits, sizeof limits, "%s_ci95", key);
+    bt_json_number(json, key, index->value);
+    bt_json_begin_array(json, limits);
+    bt_json_number(json, NULL, index->ci95.least);
+    bt_json_number(json, NULL, index->ci95.greatest);
+    bt_json_end_array(json);
+}
+
+static void write_indices(const bt_study* study, const bt_sobol_result* r) {
+    bt_json json = {.out = stdout};
+    bt_json_begin_object(&json, NULL);
+    bt_json_number(&json, "mean", r->mean);
+    bt_json_integer(&json, "evaluations", r->evaluations);
+    bt_json_begin_array(&json, "inputs");
+    for (int k = 0; k < r->dims; ++k) {
+        if (!study->inputs[k].random)
+            continue;
+        bt_json_begin_object(&json, NULL);
+        bt_json_string(&json, "path", study->inputs[k].path);
+        write_index(&json, "first", &r->first[k]);
+        write_index(&json, "total", &r->total[k]);
+        bt_json_end_object(&json);
+    }
+    bt_json_end_array(&json);
+    bt_json_end_object(&json);
+}
+
+/// Sobol's indices of the study as it stands, on the surrogate.
+static bt_status run_indices(bt_chain* chain, const bt_surrogate* surrogate) {
+    enum { SAMPLES_MAX = 200000, BOOTSTRAP = 200 };
+    const bt_study* study = &chain->study;
+    const int64_t wanted = study->reliability.samples;
+    const bt_sampler sampler = bt_reliability_sampler(study, -1);
+    bt_surrogate_classifier* made = NULL;
+    bt_sobol_result result;
+    BT_TRY(bt_surrogate_classifier_create(study, surrogate, &made, &chain->diag));
+    bt_classifier classifier = *bt_surrogate_classifier_get(made);
+    const bt_status status = bt_sobol_indices(&sampler, bt_engaged, &classifier,
+                                              (int)(wanted < SAMPLES_MAX ? wanted : SAMPLES_MAX),
+                                              BOOTSTRAP, (int)study->campaign.threads, &result);
+    bt_surrogate_classifier_destroy(made);
+    if (status == BT_ERR_NUMERIC) {
+        bt_diag_add(&chain->diag, BT_ERROR, BT_NOWHERE,
+                    "reliability: the surrogate's outcomes are all the same, there is no variance "
+                    "to share out");
+        return BT_ERR_INPUT;
+    }
+    if (status == BT_OK && chain->command->json)
+        write_indices(study, &result);
+    else if (status == BT_OK && !chain->command->quiet)
+        print_indices(study, &result);
+    return status;
+}
+
+// --- verb -------------------------------------------------------------------------------------
+
+enum { OPTION_AGAIN, OPTION_INDICES };
+
 static bt_status run_with(bt_chain* chain) {
+    const char* const* option = chain->command->option;
     bt_surrogate surrogate;
     bool fresh = false;
     BT_TRY(bt_chain_fit(chain, false, &surrogate, &fresh));
     const bt_status status =
-        bt_chain_reliability(chain, chain->command->option[0] != NULL, &surrogate);
+        option[OPTION_INDICES]
+            ? run_indices(chain, &surrogate)
+            : bt_chain_reliability(chain, option[OPTION_AGAIN] != NULL, &surrogate);
     bt_surrogate_destroy(&surrogate);
     return status;
 }
@@ -144,7 +222,9 @@ static bt_status run(const bt_command* command) {
 }
 
 static const struct argp_option options[] = {
-    {"again", BT_OPTION, 0, 0, "compute the table even if it is up to date", 1},
+    {"again", BT_OPTION + OPTION_AGAIN, 0, 0, "compute the table even if it is up to date", 1},
+    {"indices", BT_OPTION + OPTION_INDICES, 0, 0,
+     "instead of the table: which input drives the scatter of outcomes (Sobol' indices)", 1},
     {0},
 };
 
@@ -157,7 +237,10 @@ const bt_verb bt_verb_reliability = {
             "condition has the surrogate's estimate with its sampling interval, the "
             "disagreements, and the corrected estimate with an interval that covers both. Trains "
             "the surrogate first when it is out of date. Writes STUDY/reliability.json and "
-            "reliability.txt.",
+            "reliability.txt.\n\n"
+            "With --indices: for every input, the share of the variance of the surrogate's "
+            "outcomes that it alone explains, and its share with all its interactions. Nothing is "
+            "written.",
     .options = options,
     .least_words = 1,
     .most_words = 1,

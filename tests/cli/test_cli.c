@@ -266,6 +266,20 @@ static void the_whole_chain_at_small_size(void** state) {
     char* stored = read_text(f, "small/reliability.json");
     assert_string_equal(f->out, stored);
     free(stored);
+
+    assert_int_equal(bolter(f, "reliability " REFERENCE " " SMALL "-o %/small --indices --json"),
+                     0);
+    double alone = 0, together = 0;
+    int inputs = 0;
+    for (const char* at = f->out; (at = strstr(at, "\"path\": ")); ++at, ++inputs) {
+        alone += json_number(at, "first");
+        together += json_number(at, "total");
+    }
+    assert_int_equal(inputs, 4);
+    // shares alone add up to 1 at most, totals to 1 at least; 20,000 rows know them to some 0.02
+    assert_true(alone < 1.05 && together > 0.95);
+    assert_int_equal(bolter(f, "reliability " REFERENCE " " SMALL "-o %/small --indices"), 0);
+    assert_has(f->out, "with all its interactions");
 }
 
 static void another_study_in_the_same_directory_is_refused(void** state) {
