@@ -162,14 +162,11 @@ static void follow_bodies(run* r) {
         bt_hook_clearance(&r->hook_contact, &l->cable_model, &l->cable, &r->hook);
 }
 
-/// When, on the glide, a part that touches the deck line at `lowest_m` at time 0 and reaches
-/// `reach_m` fore and aft comes up to the cable; 0 when it does so later, or passes above it.
-static double comes_to_cable_s(const run* r, const double lowest_m[3], double reach_m) {
-    const bt_landing_params* p = &r->params->landing;
-    const bt_cable_params* cable = &r->params->deck.cable;
-    static const double margin_m = 0.1;
-    const double top_m =
-        fmax(cable->supports.height_m, cable->sheaves.height_m) + cable->diameter_m + margin_m;
+/// When, on the glide, a part whose lowest point is `lowest_m` at time 0 and that reaches
+/// `reach_m` fore and aft comes up to the cable; 0 when it does so later, or leaves it again
+/// higher than `top_m`.
+static double comes_to_cable_s(const bt_landing_params* p, const double lowest_m[3], double reach_m,
+                               double top_m) {
     const double enters_s = (-reach_m - lowest_m[0]) / p->horizontal_speed_mps;
     const double leaves_s = (reach_m - lowest_m[0]) / p->horizontal_speed_mps;
     const double leaves_at_m = lowest_m[2] - fmin(leaves_s, 0) * p->sink_speed_mps;
@@ -178,9 +175,11 @@ static double comes_to_cable_s(const run* r, const double lowest_m[3], double re
 
 /// Places aircraft and cable: the cable rests at x = 0, the named part of the gliding aircraft is
 /// `distance` before it when the first part touches the deck at time 0. The run starts a little
-/// earlier: before the first touch, and before any tyre or the hook comes up to the cable.
+/// earlier: before the first touch, before any tyre comes up to the cable, and before the hook
+/// crosses it.
 static void start(run* r) {
-    static const double before_touch_s = 1e-3, hook_reach_m = 0.5, tyre_margin_m = 0.05;
+    static const double before_touch_s = 1e-3, hook_reach_m = 0.5, tyre_margin_m = 0.05,
+                        above_cable_m = 0.1;
     bt_lander* l = r->lander;
     const bt_landing_params* p = &r->params->landing;
     bt_glide glide;
@@ -190,17 +189,21 @@ static void start(run* r) {
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
         lowest = fmin(lowest, glide.tyre_m[leg][2]);
     const double wheels_x = 0.5 * (glide.tyre_m[BT_LEG_LEFT][0] + glide.tyre_m[BT_LEG_RIGHT][0]);
+    const bt_cable_params* cable = &r->params->deck.cable;
+    const double top_m =
+        fmax(cable->supports.height_m, cable->sheaves.height_m) + cable->diameter_m + above_cable_m;
     const double from = p->distance_from == BT_DISTANCE_FROM_HOOK ? glide.hook_m[0] : wheels_x;
 
     // places at time 0; going back along the glide is exact, since nothing touches anything there
     const double shift[3] = {-p->distance_m - from, 0, -lowest};
     double begin_s = -before_touch_s;
     bt_add_scaled(glide.hook_m, 1, shift);
-    begin_s = fmin(begin_s, comes_to_cable_s(r, glide.hook_m, hook_reach_m));
+    // the hook's way over the cable is seen from however high: it gives the margin
+    begin_s = fmin(begin_s, comes_to_cable_s(p, glide.hook_m, hook_reach_m, INFINITY));
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
         bt_add_scaled(glide.tyre_m[leg], 1, shift);
         const double reach_m = l->airframe.tyre[leg].radius + tyre_margin_m;
-        begin_s = fmin(begin_s, comes_to_cable_s(r, glide.tyre_m[leg], reach_m));
+        begin_s = fmin(begin_s, comes_to_cable_s(p, glide.tyre_m[leg], reach_m, top_m));
     }
     const double back[3] = {shift[0] + begin_s * p->horizontal_speed_mps, 0,
                             shift[2] - begin_s * p->sink_speed_mps};

@@ -152,6 +152,24 @@ typedef struct lateral {
     double fuselage_m, attitude, cable;
 } lateral;
 
+/// Past the cable at first contact: the hook crossed it gliding, so that the margin falls by the
+/// slope of the glide with every metre.
+static void a_hook_that_crosses_high_above_the_cable_misses_by_that_height(void** state) {
+    (void)state;
+    double margin_m[2];
+    const char* const distance[2] = {"landing.distance=-20 m", "landing.distance=-30 m"};
+    for (int k = 0; k < 2; ++k) {
+        const bt_model_params model = REFERENCE(distance[k]);
+        const bt_landing_result r = land_once(&model, NULL, NULL);
+        assert_string_equal(bt_mode_name(r.mode), "passed_over");
+        assert_true(r.margin_m < 0);
+        margin_m[k] = r.margin_m;
+    }
+    const bt_model_params model = REFERENCE("landing.distance=-20 m");
+    const double slope = model.landing.sink_speed_mps / model.landing.horizontal_speed_mps;
+    BT_ASSERT_NEAR(margin_m[0] - margin_m[1], 10 * slope, 0, 1e-6);
+}
+
 static void see_lateral(void* user, const bt_landing_view* view) {
     lateral* l = user;
     l->fuselage_m = fmax(l->fuselage_m, fabs(view->q[1]));
@@ -334,6 +352,7 @@ int main(void) {
         cmocka_unit_test(each_way_to_end_has_a_landing),
         cmocka_unit_test(a_step_far_too_long_fails_and_says_where_and_when),
         cmocka_unit_test(distance_is_exact_by_construction),
+        cmocka_unit_test(a_hook_that_crosses_high_above_the_cable_misses_by_that_height),
         cmocka_unit_test(a_symmetric_landing_stays_symmetric),
         cmocka_unit_test(a_mirrored_landing_gives_the_mirrored_result),
         cmocka_unit_test(off_centre_and_yawed_landings_engage_too),
