@@ -109,8 +109,10 @@ void bt_landing_print(FILE* out, const bt_landing_result* result) {
             1e-3 * result->tyre_force_max_N[BT_LEG_LEFT],
             1e-3 * result->tyre_force_max_N[BT_LEG_RIGHT]);
     fprintf(out, "cable tension  %.1f kN peak\n", 1e-3 * result->cable_tension_max_N);
-    fprintf(out,
-            "computed       %.3f s of landing in %.0f ms (%lld airframe steps, %lld cable steps)\n",
-            result->end_time_s, 1e3 * result->wall_s, (long long)result->steps,
-            (long long)result->cable_steps);
+    fprintf(
+        out,
+        "ended          %.3f s %s first contact, computed in %.0f ms (%lld airframe steps, %lld "
+        "cable steps)\n",
+        fabs(result->end_time_s), result->end_time_s < 0 ? "before" : "after", 1e3 * result->wall_s,
+        (long long)result->steps, (long long)result->cable_steps);
 }
