@@ -13,7 +13,7 @@ static bt_status fit_key(bt_chain* chain, char* text, size_t size) {
     FILE* out = fmemopen(text, size, "w");
     if (!out)
         return BT_ERR_MEMORY;
-    fprintf(out, "weighted %016" PRIx64 " folds %lld holdout %a C", hash, (long long)p->folds,
+    fprintf(out, "weighted by loss %016" PRIx64 " folds %lld holdout %a C", hash, (long long)p->folds,
             p->holdout);
     for (int i = 0; i < p->C.count; ++i)
         fprintf(out, " %a", p->C.value[i]);

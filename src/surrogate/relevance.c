@@ -4,100 +4,126 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-// How far one step goes, nearest first: of two steps that gain alike the shorter is taken.
-enum { STEPS = 4, TURNS = 3 };
-static const double step[STEPS] = {2, 0.5, 4, 0.25};
-static const double weight_least = 0.125, weight_greatest = 16;
+// Weights are kept as whole powers of sqrt 2, so that there and back is the same weight.
+enum { STRIDES = 2, MOVES = 12, POWER_MAX = 8 };
+static const int stride[STRIDES] = {2, 1};
+static const double least_gain = 0.01;
 
-/// Several sets of weights to compare.
-typedef struct batch {
+/// A search: where it stands, and the neighbours that it looks at.
+typedef struct search {
     const bt_relevance* relevance;
-    const double* weight; ///< [sets * dims]
-    int* correct;         ///< [sets * folds]
-} batch;
+    int* power;     ///< [dims] of sqrt 2
+    double loss;    ///< there
+    double* weight; ///< [2 * dims * dims] of each neighbour
+    int* moved;     ///< [2 * dims] which input it differs in
+    int* to;        ///< [2 * dims] that input's power
+    double* losses; ///< [2 * dims * folds]
+    int back, from; ///< the input moved last and its power before: known to be worse
+} search;
 
 static bt_status run_trial(void* user, int task, int worker) {
     (void)worker;
-    const batch* b = user;
-    const bt_relevance* r = b->relevance;
-    const double* weight = b->weight + (size_t)(task / r->folds) * (size_t)r->dims;
-    return r->trial(r->user, weight, task % r->folds, &b->correct[task]);
+    const search* s = user;
+    const bt_relevance* r = s->relevance;
+    const double* weight = s->weight + (size_t)(task / r->folds) * (size_t)r->dims;
+    return r->trial(r->user, weight, task % r->folds, &s->losses[task]);
 }
 
-/// Right answers of each set of weights, all folds together.
-static bt_status count_correct(const bt_relevance* r, int sets, const double* weight,
-                               int* correct) {
-    batch b = {r, weight, calloc((size_t)(sets * r->folds), sizeof *b.correct)};
-    if (!b.correct)
-        return BT_ERR_MEMORY;
-    const bt_status status = bt_tasks_run(r->threads, sets * r->folds, run_trial, &b);
+static double weight_of(int power) {
+    return (power % 2 ? M_SQRT2 : 1) * exp2((power - (power & 1)) / 2);
+}
+
+/// Losses of `sets` sets of weights, all folds together, into the first of each set's.
+static bt_status measure(search* s, int sets) {
+    const int folds = s->relevance->folds;
+    BT_TRY(bt_tasks_run(s->relevance->threads, sets * folds, run_trial, s));
     for (int i = 0; i < sets; ++i) {
-        correct[i] = 0;
-        for (int fold = 0; fold < r->folds; ++fold)
-            correct[i] += b.correct[i * r->folds + fold];
-    }
-    free(b.correct);
-    return status;
-}
-
-/// Half a standard error of a number of right answers.
-static double half_error(int correct, int count) {
-    const double right = (double)correct / count;
-    return 0.5 * sqrt(right * (1 - right) * count);
-}
-
-/// Tries the steps of one input and takes the best that gains enough.
-static bt_status move_input(const bt_relevance* r, int input, double* weight, double* sets,
-                            int* correct, bool* moved) {
-    const size_t dims = (size_t)r->dims;
-    int count = 0, scores[STEPS] = {0};
-    for (int i = 0; i < STEPS; ++i) {
-        const double value = weight[input] * step[i];
-        if (value < weight_least || value > weight_greatest)
-            continue;
-        double* set = sets + (size_t)count++ * dims;
-        memcpy(set, weight, dims * sizeof *set);
-        set[input] = value;
-    }
-    BT_TRY(count_correct(r, count, sets, scores));
-    int best = 0;
-    for (int i = 1; i < count; ++i)
-        if (scores[i] > scores[best])
-            best = i;
-    *moved = scores[best] > *correct && scores[best] >= *correct + half_error(*correct, r->count);
-    if (*moved) {
-        weight[input] = sets[(size_t)best * dims + (size_t)input];
-        *correct = scores[best];
+        double sum = 0;
+        for (int fold = 0; fold < folds; ++fold)
+            sum += s->losses[i * folds + fold];
+        s->losses[i * folds] = sum;
     }
     return BT_OK;
 }
 
-static bt_status search(const bt_relevance* r, double* weight, double* sets) {
-    int correct, still = 0;
-    BT_TRY(count_correct(r, 1, weight, &correct));
-    for (int i = 0; i < TURNS * r->dims && still < r->dims; ++i) {
-        bool moved = false;
-        if (r->varies[i % r->dims])
-            BT_TRY(move_input(r, i % r->dims, weight, sets, &correct, &moved));
-        still = moved ? 0 : still + 1;
+static void write_weights(const search* s, double* weight) {
+    for (int k = 0; k < s->relevance->dims; ++k)
+        weight[k] = weight_of(s->power[k]);
+}
+
+/// Lists the neighbours at a stride; returns how many.
+static int list_neighbours(search* s, int length) {
+    const int dims = s->relevance->dims;
+    int count = 0;
+    for (int task = 0; task < 2 * dims; ++task) {
+        const int k = task / 2, power = s->power[k] + (task % 2 ? -length : length);
+        if (!s->relevance->varies[k] || abs(power) > POWER_MAX ||
+            (k == s->back && power == s->from))
+            continue;
+        double* weight = s->weight + (size_t)count * (size_t)dims;
+        write_weights(s, weight);
+        weight[k] = weight_of(power);
+        s->moved[count] = k;
+        s->to[count++] = power;
+    }
+    return count;
+}
+
+/// Goes to the best neighbour, if that gains enough.
+static bt_status move(search* s, int length, bool* moved) {
+    const int count = list_neighbours(s, length), folds = s->relevance->folds;
+    BT_TRY(measure(s, count));
+    int best = 0;
+    for (int i = 1; i < count; ++i)
+        if (s->losses[i * folds] < s->losses[best * folds])
+            best = i;
+    *moved = count > 0 && s->losses[best * folds] < (1 - least_gain) * s->loss;
+    if (*moved) {
+        s->back = s->moved[best];
+        s->from = s->power[s->back];
+        s->power[s->back] = s->to[best];
+        s->loss = s->losses[best * folds];
+    }
+    return BT_OK;
+}
+
+static bt_status descend(search* s) {
+    write_weights(s, s->weight);
+    BT_TRY(measure(s, 1));
+    s->loss = s->losses[0];
+    for (int i = 0; i < STRIDES; ++i) {
+        bool moved = true;
+        for (int moves = 0; moves < MOVES && moved; ++moves)
+            BT_TRY(move(s, stride[i], &moved));
     }
     return BT_OK;
 }
 
 bt_status bt_relevance_search(const bt_relevance* relevance, double* weight) {
+    const size_t dims = (size_t)relevance->dims, sets = 2 * dims;
     int varying = 0;
-    for (int k = 0; k < relevance->dims; ++k) {
+    for (size_t k = 0; k < dims; ++k) {
         weight[k] = 1;
         varying += relevance->varies[k];
     }
     if (varying < 2)
         return BT_OK;
-    double* sets = malloc(STEPS * (size_t)relevance->dims * sizeof *sets);
-    if (!sets)
-        return BT_ERR_MEMORY;
-    const bt_status status = search(relevance, weight, sets);
-    free(sets);
+    search s = {.relevance = relevance, .back = -1};
+    s.power = calloc(dims, sizeof *s.power);
+    s.weight = malloc(sets * dims * sizeof *s.weight);
+    s.moved = malloc(sets * sizeof *s.moved);
+    s.to = malloc(sets * sizeof *s.to);
+    s.losses = malloc(sets * (size_t)relevance->folds * sizeof *s.losses);
+    bt_status status = BT_ERR_MEMORY;
+    if (s.power && s.weight && s.moved && s.to && s.losses)
+        status = descend(&s);
+    if (status == BT_OK)
+        write_weights(&s, weight);
+    free(s.power);
+    free(s.weight);
+    free(s.moved);
+    free(s.to);
+    free(s.losses);
     return status;
 }

@@ -28,6 +28,7 @@ typedef struct bt_grid_cell {
     double C, gamma;
     int trained_on; ///< landings of the cross-validation; 0: not tried, its row had stopped gaining
     int correct;    ///< of them, right when left out
+    double loss;    ///< mean cross-entropy of the answers (loss.h); INFINITY: too hard to train
     int round;      ///< 1, 2, 3: how often its lot came up
 } bt_grid_cell;
 
@@ -71,9 +72,10 @@ typedef struct bt_grid {
 /// for any number of threads.
 ///
 /// The grid is tried in up to three rounds: every cell on about 2,000 landings, the best third of
-/// them on about 6,000, the best three on about 16,000. Along a row of constant gamma C rises, and
-/// the row is left when a step gained less than half a standard error. Of the cells within half a
-/// standard error of the best, the smallest C is chosen, then the smallest gamma.
+/// them on about 6,000, the best three on about 16,000. Better is less loss (loss.h). Along a row
+/// of constant gamma C rises, and the row is left when a step gained less than 1 % of the loss, or
+/// when a training took more than 10^6 iterations, which rules the cell out. The cell of least
+/// loss in the last round is chosen.
 ///
 /// @param params   grid, folds, hold-out share; empty lists mean the default grid
 /// @param threads  0: one per core

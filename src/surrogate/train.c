@@ -1,3 +1,4 @@
+#include "surrogate/loss.h"
 #include "surrogate/predictor.h"
 #include "surrogate/relevance.h"
 #include "surrogate/tasks.h"
@@ -22,8 +23,22 @@ static const int round_size[ROUNDS] = {2000, 6000, 16000};
 // standard error and saves nine tenths of the time at large C.
 static const double compare_tolerance = 0.1, final_tolerance = 1e-3;
 
-// Where the weights of the inputs are compared: a penalty and a width from the middle of the grid.
-static const double probe_C = 100, probe_gamma = 0.3;
+// Where the weights of the inputs are compared: wide and stiff, so that a narrow band is followed
+// by the weights and not by a narrow kernel.
+static const double probe_C = 1000, probe_gamma = 0.1;
+
+// The weights are compared with so many times the folds of the grid: the more a fold learns from,
+// the finer the structure that it can see, as the machine in the end will.
+enum { weight_folds = 2 };
+
+// A row of the grid is left when a step gained less than this share of the loss (loss.h).
+static const double little = 0.01;
+
+// LIBSVM gives up after 10^7 iterations (and says so where nobody should print). A fold that takes
+// more than this many is too hard: the next round's landings, or the final tolerance, would bring
+// it near to that.
+static const long most_iterations = 1000000;
+static const double libsvm_iterations = 1e7;
 
 static const double default_C[] = {1, 10, 100, 1e3, 1e4, 1e5};
 static const double default_gamma[] = {0.1, 0.3, 1, 3, 10};
@@ -32,7 +47,7 @@ static const double default_gamma[] = {0.1, 0.3, 1, 3, 10};
 typedef struct trainer {
     const bt_training_set* set;
     const bt_surrogate_params* params;
-    int threads, dims;
+    int threads, dims, folds;
     struct svm_node* nodes; ///< [count * (dims + 1)] standardised
     double* z;              ///< [count * dims] the same, dense
     int* list;              ///< indices of the training landings: +1 first, each class shuffled
@@ -44,8 +59,14 @@ typedef struct trainer {
     bt_grid_cell probe; ///< where the weights of the inputs are compared
     // of the round
     int cell[BT_GRID_MAX], cells, share[2]; ///< cells to try, landings of each class
-    int* correct;                           ///< [cells * folds]
+    struct answers* answers;                ///< [cells * folds]
 } trainer;
+
+/// How a machine answered landings that it had not learnt from.
+typedef struct answers {
+    int correct;
+    double loss; ///< sum (loss.h); INFINITY: the machine took too many iterations
+} answers;
 
 static double now_s(void) {
     struct timespec t;
@@ -53,8 +74,14 @@ static double now_s(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void be_quiet(const char* text) {
-    (void)text;
+// How many iterations this thread's last training took. LIBSVM tells it in its messages only, and
+// their receiver is given nothing but the text.
+static _Thread_local long iterations;
+
+static void listen(const char* text) {
+    const char* count = strstr(text, "#iter = ");
+    if (count)
+        iterations = strtol(count + strlen("#iter = "), NULL, 10);
 }
 
 /* ---- the split ---- */
@@ -170,6 +197,7 @@ static bt_status fit_one(const trainer* t, const int* list, int n, double C, dou
     for (int i = 0; i < n; ++i)
         engaged += t->set->label[list[i]] > 0;
     out->constant = engaged == 0 || engaged == n;
+    iterations = 0;
     if (out->constant) {
         out->rho = engaged ? -1 : 1;
         out->sv_count = 0;
@@ -227,10 +255,27 @@ static bt_surrogate bare(const bt_surrogate* machine) {
 
 /* ---- model selection ---- */
 
-/// One fold of one cell: trains on the other folds, counts right answers on this one. The i-th
-/// landing of each class belongs to fold i modulo the number of folds.
-static bt_status run_fold(const trainer* t, const bt_grid_cell* cell, int fold, int* correct) {
-    const int folds = (int)t->params->folds, total = t->share[0] + t->share[1];
+/// Asks the machine (by its definition, so that no instruction set shows) about n landings.
+static bt_status ask(const trainer* t, const bt_surrogate* machine, const int* list, int n,
+                     answers* out) {
+    double* agreement = malloc((size_t)n * sizeof *agreement);
+    if (!agreement)
+        return BT_ERR_MEMORY;
+    *out = (answers){0};
+    for (int i = 0; i < n; ++i) {
+        const double f = bt_surrogate_decision(machine, t->z + (size_t)list[i] * (size_t)t->dims);
+        agreement[i] = t->set->label[list[i]] * f;
+        out->correct += (f > 0) == (t->set->label[list[i]] > 0);
+    }
+    out->loss = bt_answer_loss(agreement, n);
+    free(agreement);
+    return BT_OK;
+}
+
+/// One fold of one cell: trains on the other folds, asks about this one. The i-th landing of each
+/// class belongs to fold i modulo the number of folds.
+static bt_status run_fold(const trainer* t, const bt_grid_cell* cell, int fold, answers* out) {
+    const int folds = t->folds, total = t->share[0] + t->share[1];
     int* learn = malloc(2 * ((size_t)total + 1) * sizeof *learn);
     if (!learn)
         return BT_ERR_MEMORY;
@@ -244,72 +289,86 @@ static bt_status run_fold(const trainer* t, const bt_grid_cell* cell, int fold, 
                 learn[learn_count++] = index;
         }
     bt_surrogate machine = {0};
-    int confusion[2][2] = {{0, 0}, {0, 0}};
     bt_status status = BT_OK;
+    *out = (answers){0};
     if (learn_count > 0 && test_count > 0) {
         status = fit_one(t, learn, learn_count, cell->C, cell->gamma, compare_tolerance, &machine);
+        const bool hard = iterations > most_iterations;
         if (status == BT_OK) {
             const bt_surrogate standard = bare(&machine);
-            status = count_correct(t, &standard, test, test_count, confusion);
+            status = ask(t, &standard, test, test_count, out);
         }
+        if (hard)
+            out->loss = INFINITY;
     }
-    *correct = confusion[0][0] + confusion[1][1];
     bt_surrogate_destroy(&machine);
     free(learn);
     return status;
 }
 
-static void score_cell(trainer* t, int cell, int correct) {
-    t->grid->cell[cell].correct = correct;
-    t->grid->cell[cell].trained_on = t->share[0] + t->share[1];
-    ++t->grid->cell[cell].round;
+static void score_cell(trainer* t, int cell, const answers* of_fold) {
+    bt_grid_cell* c = &t->grid->cell[cell];
+    c->correct = 0;
+    c->loss = 0;
+    for (int fold = 0; fold < t->folds; ++fold) {
+        c->correct += of_fold[fold].correct;
+        c->loss += of_fold[fold].loss;
+    }
+    c->trained_on = t->share[0] + t->share[1];
+    c->loss /= c->trained_on;
+    ++c->round;
 }
 
-/// Half a standard error of a number of right answers: less than that is no difference.
-static double half_error(int correct, int count) {
-    const double right = (double)correct / count;
-    return 0.5 * sqrt(right * (1 - right) * count);
+/// Loss of always naming the share of each class.
+static double ignorance(const trainer* t) {
+    const double p = (double)t->share[0] / (t->share[0] + t->share[1]);
+    return p > 0 && p < 1 ? -p * log(p) - (1 - p) * log1p(-p) : 0;
 }
 
 /// First round, one task per gamma: C rises until a step gained next to nothing, once the row has
-/// learnt anything at all (does better than always naming the commoner class).
+/// learnt anything at all, or until it is too hard.
 static bt_status run_row(void* user, int row, int worker) {
     (void)worker;
     trainer* t = user;
-    const int total = t->share[0] + t->share[1];
-    const int common = t->share[0] > t->share[1] ? t->share[0] : t->share[1];
-    int best = 0;
+    const int folds = t->folds;
+    answers* of_fold = calloc((size_t)folds, sizeof *of_fold);
+    bt_status status = of_fold ? BT_OK : BT_ERR_MEMORY;
+    const double learnt = (1 - little) * ignorance(t);
+    double best = INFINITY;
     bool idle = false;
-    for (int column = 0; column < t->columns && !idle; ++column) {
+    for (int column = 0; column < t->columns && !idle && status == BT_OK; ++column) {
         const int cell = row * t->columns + column;
-        int correct = 0;
-        for (int fold = 0; fold < t->params->folds; ++fold) {
-            int more;
-            BT_TRY(run_fold(t, &t->grid->cell[cell], fold, &more));
-            correct += more;
+        memset(of_fold, 0, (size_t)folds * sizeof *of_fold);
+        bool hard = false;
+        for (int fold = 0; fold < folds && status == BT_OK && !hard; ++fold) {
+            status = run_fold(t, &t->grid->cell[cell], fold, &of_fold[fold]);
+            hard = isinf(of_fold[fold].loss);
         }
-        score_cell(t, cell, correct);
-        const double little = half_error(correct, total);
-        idle = column > 0 && correct < best + little && best > common + little;
-        best = correct > best ? correct : best;
+        score_cell(t, cell, of_fold);
+        const double loss = t->grid->cell[cell].loss;
+        idle = hard || (loss > (1 - little) * best && best < learnt);
+        best = fmin(best, loss);
     }
-    return BT_OK;
+    free(of_fold);
+    return status;
 }
 
 /// Later rounds, one task per cell and fold.
 static bt_status run_cell_fold(void* user, int task, int worker) {
     (void)worker;
     trainer* t = user;
-    const int folds = (int)t->params->folds;
-    return run_fold(t, &t->grid->cell[t->cell[task / folds]], task % folds, &t->correct[task]);
+    const int folds = t->folds;
+    return run_fold(t, &t->grid->cell[t->cell[task / folds]], task % folds, &t->answers[task]);
 }
 
-/// Better: tried in a later round, more right, then the smoother machine.
+/// Better: not too hard, tried in a later round, less loss, then the smoother machine.
 static bool cell_before(const bt_grid_cell* a, const bt_grid_cell* b) {
+    if (isinf(a->loss) != isinf(b->loss))
+        return isinf(b->loss);
     if (a->round != b->round)
         return a->round > b->round;
-    if (a->correct != b->correct)
-        return a->correct > b->correct;
+    if (a->loss != b->loss)
+        return a->loss < b->loss;
     if (a->C != b->C)
         return a->C < b->C;
     return a->gamma < b->gamma;
@@ -340,7 +399,7 @@ static bool size_round(trainer* t, int size) {
     for (int class = 0; class < 2; ++class) {
         int share =
             total <= size ? t->train[class] : (int)((double)size * t->train[class] / total + 0.5);
-        const int least = 2 * (int)t->params->folds;
+        const int least = 2 * t->folds;
         share = share < least ? least : share;
         t->share[class] = share < t->train[class] ? share : t->train[class];
     }
@@ -348,39 +407,24 @@ static bool size_round(trainer* t, int size) {
 }
 
 static bt_status later_round(trainer* t) {
-    const int folds = (int)t->params->folds;
-    t->correct = calloc((size_t)(t->cells * folds), sizeof *t->correct);
-    if (!t->correct)
+    const int folds = t->folds;
+    t->answers = calloc((size_t)(t->cells * folds), sizeof *t->answers);
+    if (!t->answers)
         return BT_ERR_MEMORY;
     const bt_status status = bt_tasks_run(t->threads, t->cells * folds, run_cell_fold, t);
-    for (int i = 0; i < t->cells && status == BT_OK; ++i) {
-        int sum = 0;
-        for (int fold = 0; fold < folds; ++fold)
-            sum += t->correct[i * folds + fold];
-        score_cell(t, t->cell[i], sum);
-    }
-    free(t->correct);
-    t->correct = NULL;
+    for (int i = 0; i < t->cells && status == BT_OK; ++i)
+        score_cell(t, t->cell[i], t->answers + i * folds);
+    free(t->answers);
+    t->answers = NULL;
     return status;
 }
 
-/// Of the cells of the last round that the best does not beat by half a standard error, the one
-/// with the smallest C, then the smallest gamma: equal on the evidence, smoother and faster.
 static void choose_cell(trainer* t) {
     bt_grid* grid = t->grid;
-    int best = 0;
+    grid->best = 0;
     for (int i = 1; i < grid->count; ++i)
-        if (cell_before(&grid->cell[i], &grid->cell[best]))
-            best = i;
-    const bt_grid_cell top = grid->cell[best];
-    const double least = top.correct - half_error(top.correct, top.trained_on);
-    grid->best = best;
-    for (int i = 0; i < grid->count; ++i) {
-        const bt_grid_cell *cell = &grid->cell[i], *chosen = &grid->cell[grid->best];
-        if (cell->round == top.round && cell->correct >= least &&
-            (cell->C < chosen->C || (cell->C == chosen->C && cell->gamma < chosen->gamma)))
+        if (cell_before(&grid->cell[i], &grid->cell[grid->best]))
             grid->best = i;
-    }
 }
 
 /* ---- the weights of the inputs ---- */
@@ -400,7 +444,7 @@ static void weigh(const trainer* t, const double* weight, struct svm_node* nodes
         }
 }
 
-static bt_status try_weights(void* user, const double* weight, int fold, int* correct) {
+static bt_status try_weights(void* user, const double* weight, int fold, double* loss) {
     trainer own = *(const trainer*)user;
     const size_t n = (size_t)own.set->count, dims = (size_t)own.dims;
     struct svm_node* nodes = malloc(n * (dims + 1) * sizeof *nodes);
@@ -410,7 +454,10 @@ static bt_status try_weights(void* user, const double* weight, int fold, int* co
         weigh(&own, weight, nodes, z);
         own.nodes = nodes;
         own.z = z;
-        status = run_fold(&own, &own.probe, fold, correct);
+        own.folds *= weight_folds;
+        answers found;
+        status = run_fold(&own, &own.probe, fold, &found);
+        *loss = found.loss;
     }
     free(nodes);
     free(z);
@@ -436,8 +483,7 @@ static bt_status choose_weights(trainer* t, bt_surrogate* out) {
     size_round(t, round_size[0]);
     t->probe = (bt_grid_cell){.C = probe_C, .gamma = probe_gamma_of(t)};
     const bt_relevance relevance = {.dims = t->dims,
-                                    .folds = (int)t->params->folds,
-                                    .count = t->share[0] + t->share[1],
+                                    .folds = weight_folds * t->folds,
                                     .varies = varies,
                                     .threads = t->threads,
                                     .trial = try_weights,
@@ -544,6 +590,19 @@ static bt_status score(const trainer* t, bt_surrogate* out) {
     return BT_OK;
 }
 
+/// The chosen machine, of everything that was not held out. Should LIBSVM give up nevertheless, a
+/// softer one is taken.
+static bt_status fit_all(const trainer* t, bt_surrogate* out) {
+    const bt_grid_cell* best = &t->grid->cell[t->grid->best];
+    const int n = t->train[0] + t->train[1];
+    BT_TRY(fit_one(t, t->list, n, best->C, best->gamma, final_tolerance, out));
+    while ((double)iterations >= fmax(libsvm_iterations, 100.0 * n)) {
+        bt_surrogate_destroy(out);
+        BT_TRY(fit_one(t, t->list, n, out->C / 10, best->gamma, final_tolerance, out));
+    }
+    return BT_OK;
+}
+
 static bt_status train_split(trainer* t, bt_surrogate* out, bt_diag* diag) {
     lay_grid(t);
     measure(t, out);
@@ -557,9 +616,7 @@ static bt_status train_split(trainer* t, bt_surrogate* out, bt_diag* diag) {
                     "all %d landings were %s; the surrogate is constant and knows no boundary",
                     t->set->count, t->train[0] ? "engaged" : "missed");
     }
-    const bt_grid_cell* best = &t->grid->cell[t->grid->best];
-    BT_TRY(
-        fit_one(t, t->list, t->train[0] + t->train[1], best->C, best->gamma, final_tolerance, out));
+    BT_TRY(fit_all(t, out));
     return score(t, out);
 }
 
@@ -569,9 +626,13 @@ bt_status bt_surrogate_train(const bt_training_set* set, const bt_surrogate_para
     *out = (bt_surrogate){0};
     BT_TRY(check_set(set, diag));
     const double begun_s = now_s();
-    svm_set_print_string_function(be_quiet);
+    svm_set_print_string_function(listen);
     const size_t n = (size_t)set->count, dims = (size_t)set->dims;
-    trainer t = {.set = set, .params = params, .threads = threads, .dims = set->dims};
+    trainer t = {.set = set,
+                 .params = params,
+                 .threads = threads,
+                 .dims = set->dims,
+                 .folds = (int)params->folds};
     t.nodes = malloc(n * (dims + 1) * sizeof *t.nodes);
     t.z = malloc(n * dims * sizeof *t.z);
     t.list = malloc(n * sizeof *t.list);

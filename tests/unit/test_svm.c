@@ -422,6 +422,81 @@ static void an_input_with_finer_structure_gets_more_weight_and_accuracy_rises(vo
     free_sample(&fresh);
 }
 
+/// Missed when x3 is low, and in a thin band oblique to all four inputs (a tenth of the landings):
+/// the shape that wheels which have just pressed the cable down leave in a study.
+static int oblique(const double* x, bool* in_band) {
+    *in_band = x[3] > -1.2 && fabs(x[3] - 0.5 * x[0] - 0.3 * x[1] + 0.4 * x[2]) < 0.2;
+    return x[3] < -1.2 || *in_band ? -1 : 1;
+}
+
+/// Weights and cell chosen by the number of right answers, equal within half a standard error, gave
+/// up here: 1.6 % of the band and 89.9 % of all for this seed, 3.6 and 88.5 % for the next.
+static void a_thin_oblique_band_is_seen(void** state) {
+    (void)state;
+    enum { N = 1000, FRESH = 20000 };
+    double* x = malloc((size_t)(4 * N) * sizeof *x);
+    int* label = malloc(N * sizeof *label);
+    bool in_band;
+    for (int i = 0; i < N; ++i) {
+        for (int k = 0; k < 4; ++k)
+            x[4 * i + k] = 4 * bt_rng_uniform(1, (uint64_t)i, (uint32_t)k) - 2;
+        label[i] = oblique(x + 4 * i, &in_band);
+    }
+    const bt_training_set set = {4, N, x, label};
+    const bt_surrogate_params params = params_of(0, 0);
+    bt_surrogate s = train(&set, &params);
+    int right = 0, band = 0, seen = 0;
+    for (int i = 0; i < FRESH; ++i) {
+        double point[4];
+        for (int k = 0; k < 4; ++k)
+            point[k] = 4 * bt_rng_uniform(2, (uint64_t)i, (uint32_t)k) - 2;
+        const int truth = oblique(point, &in_band);
+        const bool correct = (bt_surrogate_decision(&s, point) > 0) == (truth > 0);
+        right += correct;
+        band += in_band;
+        seen += in_band && correct;
+    }
+    assert_true(seen > 0.7 * band);
+    assert_true(right > 0.93 * FRESH);
+    bt_surrogate_destroy(&s);
+    free(x);
+    free(label);
+}
+
+/// A tenth of the labels turned: at C = 3e5 a fold takes some 10^6 iterations, which is too hard.
+/// The row ends there, before LIBSVM would give up and print, and another cell is chosen.
+static void a_machine_that_does_not_converge_is_not_chosen_and_nothing_is_printed(void** state) {
+    (void)state;
+    char path[512];
+    snprintf(path, sizeof path, "%s/stderr", folder);
+    fflush(stderr);
+    const int kept = dup(STDERR_FILENO);
+    FILE* heard = fopen(path, "w+");
+    assert_non_null(heard);
+    assert_true(dup2(fileno(heard), STDERR_FILENO) >= 0);
+    sample data = make_sample(800, 2, 0.1, 17);
+    bt_surrogate_params params = params_of(0, 0);
+    params.C = (bt_list){3, {10, 3e5, 1e9}};
+    params.gamma = (bt_list){1, {0.3}};
+    bt_grid* grid = malloc(sizeof *grid);
+    bt_surrogate s;
+    const bt_status status = bt_surrogate_train(&data.set, &params, 1, 2, &s, grid, NULL);
+    fflush(stderr);
+    dup2(kept, STDERR_FILENO);
+    close(kept);
+    assert_int_equal(status, BT_OK);
+    fseek(heard, 0, SEEK_END);
+    assert_int_equal(ftell(heard), 0);
+    fclose(heard);
+    unlink(path);
+    assert_true(isinf(grid->cell[1].loss));
+    assert_int_equal(grid->cell[2].trained_on, 0);
+    assert_true(grid->best == 0 && isfinite(grid->cell[0].loss) && s.C == 10);
+    free(grid);
+    bt_surrogate_destroy(&s);
+    free_sample(&data);
+}
+
 static void unsound_landings_are_refused(void** state) {
     (void)state;
     sample data = make_sample(20, 2, 0, 13);
@@ -630,6 +705,8 @@ int main(void) {
         cmocka_unit_test(one_landing_of_the_other_kind_is_trained_on),
         cmocka_unit_test(an_input_that_never_varies_changes_nothing),
         cmocka_unit_test(an_input_with_finer_structure_gets_more_weight_and_accuracy_rises),
+        cmocka_unit_test(a_thin_oblique_band_is_seen),
+        cmocka_unit_test(a_machine_that_does_not_converge_is_not_chosen_and_nothing_is_printed),
         cmocka_unit_test(unsound_landings_are_refused),
         cmocka_unit_test(model_file_gives_every_bit_back),
         cmocka_unit_test(model_file_without_weights_is_read_with_weights_one),

@@ -1,0 +1,33 @@
+#include "surrogate/loss.h"
+
+#include <math.h>
+
+static const double slope_greatest = 1000;
+
+/// Derivative of the loss by the slope.
+static double derivative(const double* agreement, int n, double slope) {
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+        sum -= agreement[i] / (1 + exp(slope * agreement[i]));
+    return sum;
+}
+
+/// log(1 + exp(-u)) without overflow.
+static double loss_of(double u) {
+    return u > 0 ? log1p(exp(-u)) : log1p(exp(u)) - u;
+}
+
+double bt_answer_loss(const double* agreement, int n) {
+    double least = 0, greatest = slope_greatest;
+    for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (least + greatest);
+        if (derivative(agreement, n, middle) < 0)
+            least = middle;
+        else
+            greatest = middle;
+    }
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+        sum += loss_of(least * agreement[i]);
+    return sum;
+}
