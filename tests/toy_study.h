@@ -2,6 +2,7 @@
 #ifndef BT_TESTS_TOY_STUDY_H
 #define BT_TESTS_TOY_STUDY_H
 
+#include "folder.h"
 #include "study/study.h"
 
 #include <ftw.h>
@@ -38,10 +39,8 @@ static inline void toy_study(bt_study* study, int design, int samples) {
 
 /// A new directory for one test; free the name after toy_directory_remove.
 static inline char* toy_directory(void) {
-    const char* base = getenv("TMPDIR");
-    char* path = malloc(4096);
-    snprintf(path, 4096, "%s/bolter-XXXXXX", base && *base ? base : P_tmpdir);
-    assert_non_null(mkdtemp(path));
+    char* path = malloc(FOLDER_SIZE);
+    assert_int_equal(folder_make(path), 0);
     return path;
 }
 

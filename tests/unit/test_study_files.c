@@ -1,6 +1,7 @@
 // Files, --set, the echo and the hash.
 #include "near.h"
 
+#include "folder.h"
 #include "messages.h"
 #include "study/study.h"
 
@@ -10,14 +11,11 @@
 #include <unistd.h>
 
 static const char* const reference = "studies/reference/study.yaml";
-static char directory[256];
+static char directory[FOLDER_SIZE];
 
 static int setup(void** state) {
     (void)state;
-    const char* temporary = getenv("TMPDIR");
-    snprintf(directory, sizeof directory, "%s/bolter_study_XXXXXX",
-             temporary ? temporary : P_tmpdir);
-    return mkdtemp(directory) ? 0 : -1;
+    return folder_make(directory);
 }
 
 static int teardown(void** state) {

@@ -1,6 +1,7 @@
 #include "near.h"
 
 #include "base/rng.h"
+#include "folder.h"
 #include "surrogate/predictor.h"
 
 #include <inttypes.h>
@@ -9,13 +10,11 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-static char folder[256];
+static char folder[FOLDER_SIZE];
 
 static int make_folder(void** state) {
     (void)state;
-    const char* temporary = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/bolter_svm_XXXXXX", temporary ? temporary : P_tmpdir);
-    return mkdtemp(folder) ? 0 : -1;
+    return folder_make(folder);
 }
 
 static int remove_folder(void** state) {

@@ -4,19 +4,17 @@
 
 #include "calibration/calibration.h"
 #include "calibration/identify.h"
+#include "folder.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
-static char folder[256];
+static char folder[FOLDER_SIZE];
 
 static int make_folder(void** state) {
     (void)state;
-    const char* temporary = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/bolter_calibration_XXXXXX",
-             temporary ? temporary : P_tmpdir);
-    return mkdtemp(folder) ? 0 : -1;
+    return folder_make(folder);
 }
 
 static int remove_folder(void** state) {
