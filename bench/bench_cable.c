@@ -2,7 +2,7 @@
 /// bushings and deck contact written by hand, as its users would); step, wave error, equilibrium.
 #include "bench.h"
 
-#include "landing/cable.h"
+#include "cable/cable.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,10 +1,10 @@
 /// Training, prediction and sampling, beside LIBSVM and GSL doing the same work.
 #include "bench.h"
 
+#include "base/tasks.h"
 #include "reliability/monte_carlo.h"
 #include "reliability/sample_kernel.h"
 #include "surrogate/predictor.h"
-#include "surrogate/tasks.h"
 
 #include "base/rng.h"
 

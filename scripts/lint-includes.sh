@@ -4,7 +4,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-floors=(base mechanics elements landing rigs study campaign calibration surrogate reliability report api cli)
+floors=(base mechanics elements cable landing rigs study campaign statistics surrogate reliability
+    calibration pipeline report api cli)
 declare -A height
 for i in "${!floors[@]}"; do height[${floors[i]}]=$i; done
 

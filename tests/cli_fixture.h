@@ -9,7 +9,7 @@
 
 #include "near.h"
 
-#include "campaign/directory.h"
+#include "base/directory.h"
 #include "toy_study.h"
 
 #include <sys/wait.h>

@@ -8,8 +8,8 @@
 #ifndef BT_CALIBRATION_CALIBRATION_H
 #define BT_CALIBRATION_CALIBRATION_H
 
-#include "calibration/measured.h"
-#include "calibration/specimen.h"
+#include "calibration/parameter_set.h"
+#include "study/measured.h"
 #include "study/study.h"
 
 #include <stdatomic.h>
@@ -17,7 +17,7 @@
 enum {
     BT_PARAMETER_MAX = 16,
     BT_TARGET_MAX = 64,
-    BT_EXPERIMENT_MAX = 128,
+    BT_CASE_MAX = 128,
     BT_OVERRIDE_MAX = 16,
     BT_STEPS_MAX = 200,
 };
@@ -26,34 +26,34 @@ typedef struct bt_parameter {
     char path[BT_PATH_MAX];
     char typed[64]; ///< the start (or lower bound) as typed: its unit is used in reports
     const bt_field* field;
-    size_t offset;              ///< in bt_specimen
+    size_t offset;              ///< in bt_parameter_set
     double lower, upper, start; ///< SI
     double spread;              ///< how far it is believed to lie from start, SI; 0: no belief
 } bt_parameter;
 
 typedef struct bt_override {
     const bt_field* field;
-    size_t offset; ///< in bt_specimen
+    size_t offset; ///< in bt_parameter_set
     double value;  ///< SI
 } bt_override;
 
 /// A landing, then the rigs in the order of bt_rig_kind.
-typedef enum bt_experiment_kind {
-    BT_EXPERIMENT_LANDING,
-    BT_EXPERIMENT_NOSE_DROP,
-    BT_EXPERIMENT_MAIN_DROP,
-    BT_EXPERIMENT_HOOK_REBOUND,
-    BT_EXPERIMENT_NOSE_STATIC,
-    BT_EXPERIMENT_MAIN_STATIC,
-    BT_EXPERIMENT_KINDS,
-} bt_experiment_kind;
+typedef enum bt_simulated_case_kind {
+    BT_CASE_LANDING,
+    BT_CASE_NOSE_DROP,
+    BT_CASE_MAIN_DROP,
+    BT_CASE_HOOK_REBOUND,
+    BT_CASE_NOSE_STATIC,
+    BT_CASE_MAIN_STATIC,
+    BT_CASE_KINDS,
+} bt_simulated_case_kind;
 
 /// One run of the model. Targets that ask the same run share it.
-typedef struct bt_experiment {
-    bt_experiment_kind kind;
+typedef struct bt_simulated_case {
+    bt_simulated_case_kind kind;
     int override_count;
     bt_override overrides[BT_OVERRIDE_MAX];
-} bt_experiment;
+} bt_simulated_case;
 
 typedef enum bt_target_kind {
     BT_TARGET_VALUE,
@@ -83,12 +83,12 @@ typedef struct bt_target {
 } bt_target;
 
 typedef struct bt_calibration {
-    bt_specimen base; ///< the study with the calibration file's common overrides
-    bool rigs_only;   ///< the study describes no landing
+    bt_parameter_set base; ///< the study with the calibration file's common overrides
+    bool rigs_only;        ///< the study describes no landing
     int parameter_count;
     bt_parameter parameters[BT_PARAMETER_MAX];
     int experiment_count;
-    bt_experiment experiments[BT_EXPERIMENT_MAX];
+    bt_simulated_case experiments[BT_CASE_MAX];
     int target_count;
     bt_target targets[BT_TARGET_MAX];
     int row_count;   ///< residuals of all targets

@@ -1,6 +1,6 @@
 #include "calibration/evaluate.h"
 
-#include "calibration/experiment.h"
+#include "calibration/simulated_case.h"
 #include "campaign/executor.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ typedef struct shared {
     const bt_calibration* calibration;
     const double* u;
     int run_count;  ///< points times experiments
-    double* metric; ///< [run_count][BT_EXPERIMENT_METRIC_MAX]
+    double* metric; ///< [run_count][BT_CASE_METRIC_MAX]
     double* rows;   ///< rows of curves receive what the model did
     const atomic_int* stop;
     atomic_int next;
@@ -39,8 +39,8 @@ static void report(void* user, bt_severity severity, bt_where where, const char*
 // --- one run ----------------------------------------------------------------------------------
 
 /// The base with the parameters of a point and the overrides of an experiment.
-static void prepare(const bt_calibration* c, const double* u, const bt_experiment* experiment,
-                    bt_specimen* specimen) {
+static void prepare(const bt_calibration* c, const double* u, const bt_simulated_case* experiment,
+                    bt_parameter_set* specimen) {
     *specimen = c->base;
     for (int i = 0; i < c->parameter_count; ++i) {
         const bt_parameter* p = &c->parameters[i];
@@ -63,20 +63,21 @@ static int find_curves(const bt_calibration* c, int experiment, double* rows,
     return count;
 }
 
-static bt_status run_one(shared* s, int run, bt_lander* lander, bt_specimen* specimen,
+static bt_status run_one(shared* s, int run, bt_lander* lander, bt_parameter_set* specimen,
                          bt_diag* diag) {
     const bt_calibration* c = s->calibration;
     const int point = run / c->experiment_count, index = run % c->experiment_count;
-    const bt_experiment* experiment = &c->experiments[index];
+    const bt_simulated_case* experiment = &c->experiments[index];
     bt_followed followed[BT_TARGET_MAX];
-    double* metric = s->metric + (size_t)run * BT_EXPERIMENT_METRIC_MAX;
+    double* metric = s->metric + (size_t)run * BT_CASE_METRIC_MAX;
     const int count =
         find_curves(c, index, s->rows + (size_t)point * (size_t)c->row_count, followed);
     prepare(c, s->u + (size_t)point * (size_t)c->parameter_count, experiment, specimen);
-    if (bt_specimen_check(specimen, bt_experiment_part(experiment->kind), diag) == BT_OK)
-        return bt_experiment_run(lander, experiment->kind, specimen, metric, followed, count, diag);
+    if (bt_parameter_set_check(specimen, bt_simulated_case_part(experiment->kind), diag) == BT_OK)
+        return bt_simulated_case_run(lander, experiment->kind, specimen, metric, followed, count,
+                                     diag);
     // parameters that do not go together: no value, like a run that diverged
-    bt_experiment_void(metric, followed, count);
+    bt_simulated_case_void(metric, followed, count);
     return BT_OK;
 }
 
@@ -84,7 +85,7 @@ static void* work(void* argument) {
     shared* s = argument;
     bt_diag diag = {.sink = report, .user = s};
     bt_lander* lander = NULL;
-    bt_specimen* specimen = malloc(sizeof *specimen);
+    bt_parameter_set* specimen = malloc(sizeof *specimen);
     bt_status status = specimen ? bt_lander_create(&lander) : BT_ERR_MEMORY;
     while (status == BT_OK) {
         if (s->stop && atomic_load(s->stop) != 0) {
@@ -155,7 +156,7 @@ static double target_rows(const bt_target* t, const double* metric, double* rows
         return curve_rows(t, rows);
     double value[BT_LIST_MAX];
     for (int i = 0; i < t->experiment_count; ++i)
-        value[i] = metric[t->experiments[i] * BT_EXPERIMENT_METRIC_MAX + t->metric];
+        value[i] = metric[t->experiments[i] * BT_CASE_METRIC_MAX + t->metric];
     if (t->experiment_count == 1) {
         rows[0] = single_row(t, value[0]);
         return value[0];
@@ -169,7 +170,7 @@ static void all_rows(const shared* s, int points, double* got) {
     const bt_calibration* c = s->calibration;
     for (int p = 0; p < points; ++p) {
         const double* metric =
-            s->metric + (size_t)p * (size_t)c->experiment_count * BT_EXPERIMENT_METRIC_MAX;
+            s->metric + (size_t)p * (size_t)c->experiment_count * BT_CASE_METRIC_MAX;
         double* rows = s->rows + (size_t)p * (size_t)c->row_count;
         for (int i = 0; i < c->target_count; ++i) {
             const double value =
@@ -189,7 +190,7 @@ bt_status bt_calibration_evaluate(const bt_calibration* calibration, const doubl
                 .rows = rows,
                 .stop = stop,
                 .diag = diag};
-    s.metric = calloc((size_t)s.run_count, BT_EXPERIMENT_METRIC_MAX * sizeof *s.metric);
+    s.metric = calloc((size_t)s.run_count, BT_CASE_METRIC_MAX * sizeof *s.metric);
     if (!s.metric)
         return BT_ERR_MEMORY;
     const bt_status status = run_all(&s);

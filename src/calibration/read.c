@@ -1,8 +1,7 @@
+#include "base/directory.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "calibration/experiment.h"
-#include "campaign/directory.h"
-#include "campaign/sweep.h"
+#include "calibration/simulated_case.h"
 #include "study/reader.h"
 
 #include <limits.h>
@@ -26,7 +25,7 @@ typedef struct reading {
 /// A field of numbers named by a key; NULL after reporting an error.
 static const bt_field* find_field(reading* r, const bt_node* key, const char* path,
                                   size_t* offset) {
-    const bt_field* field = bt_specimen_find(key->text, offset);
+    const bt_field* field = bt_parameter_set_find(key->text, offset);
     if (field && field->kind <= BT_FIELD_COUNT && strlen(key->text) < BT_PATH_MAX)
         return field;
     if (field) {
@@ -35,7 +34,7 @@ static const bt_field* find_field(reading* r, const bt_node* key, const char* pa
         return NULL;
     }
     char nearest[160] = "";
-    bt_specimen_nearest(key->text, nearest, sizeof nearest);
+    bt_parameter_set_nearest(key->text, nearest, sizeof nearest);
     bt_reader_error(&r->reader, key->where, "%s.%s: no such key; did you mean \"%s\"?", path,
                     key->text, nearest);
     return NULL;
@@ -140,7 +139,8 @@ static void read_parameters(reading* r, const bt_node* node, const bt_node* root
 // --- experiments ------------------------------------------------------------------------------
 
 /// Reads `under`, a mapping of paths and values, into an experiment; false after errors.
-static bool read_overrides(reading* r, const bt_node* node, const char* path, bt_experiment* e) {
+static bool read_overrides(reading* r, const bt_node* node, const char* path,
+                           bt_simulated_case* e) {
     if (!node)
         return true;
     if (!bt_reader_is_mapping(&r->reader, node, path))
@@ -162,7 +162,7 @@ static bool read_overrides(reading* r, const bt_node* node, const char* path, bt
     return good;
 }
 
-static bool same_experiment(const bt_experiment* a, const bt_experiment* b) {
+static bool same_experiment(const bt_simulated_case* a, const bt_simulated_case* b) {
     if (a->kind != b->kind || a->override_count != b->override_count)
         return false;
     for (int i = 0; i < a->override_count; ++i)
@@ -173,21 +173,22 @@ static bool same_experiment(const bt_experiment* a, const bt_experiment* b) {
 }
 
 /// The number of an experiment, shared with an equal one; -1 when there is no more room.
-static int add_experiment(bt_calibration* c, const bt_experiment* e) {
+static int add_experiment(bt_calibration* c, const bt_simulated_case* e) {
     for (int i = 0; i < c->experiment_count; ++i)
         if (same_experiment(&c->experiments[i], e))
             return i;
-    if (c->experiment_count == BT_EXPERIMENT_MAX)
+    if (c->experiment_count == BT_CASE_MAX)
         return -1;
     c->experiments[c->experiment_count] = *e;
     return c->experiment_count++;
 }
 
 /// Adds the experiment of a target, or one per value of its trend.
-static void add_experiments(reading* r, bt_target* t, const bt_experiment* e, const bt_node* node,
-                            const bt_override* over, const double* values, int count) {
+static void add_experiments(reading* r, bt_target* t, const bt_simulated_case* e,
+                            const bt_node* node, const bt_override* over, const double* values,
+                            int count) {
     for (int i = 0; i < count; ++i) {
-        bt_experiment one = *e;
+        bt_simulated_case one = *e;
         if (over) {
             one.overrides[one.override_count] = *over;
             one.overrides[one.override_count++].value = values[i];
@@ -195,7 +196,7 @@ static void add_experiments(reading* r, bt_target* t, const bt_experiment* e, co
         t->experiments[i] = add_experiment(r->c, &one);
         if (t->experiments[i] < 0) {
             bt_reader_error(&r->reader, node->where, "targets: more than %d experiments",
-                            BT_EXPERIMENT_MAX);
+                            BT_CASE_MAX);
             return;
         }
         t->experiment_count = i + 1;
@@ -206,21 +207,21 @@ static void add_experiments(reading* r, bt_target* t, const bt_experiment* e, co
 
 /// Finds "bounce_height" or "nose_drop.stroke_max"; false after reporting an error.
 static bool find_metric(reading* r, const bt_node* node, const char* path, bt_target* t,
-                        bt_experiment_kind* kind) {
+                        bt_simulated_case_kind* kind) {
     const char* best = NULL;
     int distance = INT_MAX;
-    char names[BT_EXPERIMENT_METRIC_MAX * BT_EXPERIMENT_KINDS][64], help[160];
+    char names[BT_CASE_METRIC_MAX * BT_CASE_KINDS][64], help[160];
     int count = 0;
-    for (int k = BT_EXPERIMENT_LANDING; k < BT_EXPERIMENT_KINDS; ++k) {
-        const bt_metric_name* metrics = bt_experiment_metrics((bt_experiment_kind)k);
+    for (int k = BT_CASE_LANDING; k < BT_CASE_KINDS; ++k) {
+        const bt_metric_name* metrics = bt_simulated_case_metrics((bt_simulated_case_kind)k);
         for (int i = 0; metrics[i].name; ++i) {
             char* name = names[count++];
-            snprintf(name, sizeof names[0], "%s%s", bt_experiment_prefix((bt_experiment_kind)k),
-                     metrics[i].name);
+            snprintf(name, sizeof names[0], "%s%s",
+                     bt_simulated_case_prefix((bt_simulated_case_kind)k), metrics[i].name);
             if (strcmp(name, node->text) == 0) {
                 t->metric = i;
                 t->token = metrics[i].token;
-                *kind = (bt_experiment_kind)k;
+                *kind = (bt_simulated_case_kind)k;
                 return true;
             }
             bt_reader_nearest(node->text, name, &best, &distance);
@@ -285,7 +286,7 @@ static int read_trend_values(reading* r, const bt_node* node, const bt_node* ove
 
 /// A metric that grows, falls or stays while a key takes several values.
 static void read_trend(reading* r, bt_target* t, const bt_node* node, const bt_node* trend,
-                       bt_experiment* e, const char* path) {
+                       bt_simulated_case* e, const char* path) {
     static const char* const names[] = {"increasing", "decreasing", "constant", NULL};
     char place[PLACE_SIZE];
     double values[BT_LIST_MAX];
@@ -317,7 +318,7 @@ static void read_trend(reading* r, bt_target* t, const bt_node* node, const bt_n
 }
 
 /// Reads the CSV of a curve, beside the calibration file, and finds its columns.
-static void read_curve(reading* r, bt_target* t, const bt_node* file, const bt_experiment* e) {
+static void read_curve(reading* r, bt_target* t, const bt_node* file, const bt_simulated_case* e) {
     char path[BT_FILE_PATH_MAX];
     bt_calibration* c = r->c;
     const char* slash = strrchr(c->file_name, '/');
@@ -334,7 +335,7 @@ static void read_curve(reading* r, bt_target* t, const bt_node* file, const bt_e
     const int errors = r->reader.errors;
     bt_status status = bt_measured_read(name->text, &t->measured, &diag);
     if (status == BT_OK) {
-        status = bt_experiment_bind(e->kind, t->measured, &diag);
+        status = bt_simulated_case_bind(e->kind, t->measured, &diag);
         t->row_count = t->measured->count;
     }
     if (status == BT_ERR_MEMORY)
@@ -346,7 +347,7 @@ static void read_curve(reading* r, bt_target* t, const bt_node* file, const bt_e
 
 /// `curve: FILE.csv` with `of`: landing or one of the rigs.
 static void read_curve_target(reading* r, bt_target* t, const bt_node* node, const bt_node* file,
-                              bt_experiment* e, const char* path) {
+                              bt_simulated_case* e, const char* path) {
     static const char* const kinds[] = {"landing",     "nose_drop",   "main_drop", "hook_rebound",
                                         "nose_static", "main_static", NULL};
     char place[PLACE_SIZE];
@@ -357,7 +358,7 @@ static void read_curve_target(reading* r, bt_target* t, const bt_node* node, con
     t->token = "1";
     snprintf(place, sizeof place, "%s.of", path);
     if (of && bt_reader_choice(&r->reader, kinds, of, place, &kind))
-        e->kind = (bt_experiment_kind)kind;
+        e->kind = (bt_simulated_case_kind)kind;
     if (!of || !tolerance || file->kind != BT_NODE_SCALAR) {
         bt_reader_error(&r->reader, node->where,
                         "%s: a curve wants `of` (landing or a rig) and "
@@ -379,7 +380,7 @@ static void read_curve_target(reading* r, bt_target* t, const bt_node* node, con
 }
 
 /// A target that compares one metric.
-static void read_metric_target(reading* r, bt_target* t, const bt_node* node, bt_experiment* e,
+static void read_metric_target(reading* r, bt_target* t, const bt_node* node, bt_simulated_case* e,
                                const char* path) {
     static const char* const wishes[] = {"value", "at_most", "at_least"};
     const bt_node* metric = bt_node_child(node, "metric");
@@ -426,7 +427,7 @@ static void read_target(reading* r, const bt_node* node, int number) {
     *t = (bt_target){.weight = 1, .where = node->where, .first_row = c->row_count};
     t->where.file = c->file_name;
     bt_reader_known_keys(&r->reader, node, path, keys, NULL);
-    bt_experiment e = {0};
+    bt_simulated_case e = {0};
     snprintf(place, sizeof place, "%s.under", path);
     if (!read_overrides(r, bt_node_child(node, "under"), place, &e))
         return;
@@ -440,7 +441,7 @@ static void read_target(reading* r, const bt_node* node, int number) {
         read_curve_target(r, t, node, curve, &e, path);
     else
         read_metric_target(r, t, node, &e, path);
-    if (c->rigs_only && e.kind == BT_EXPERIMENT_LANDING && r->reader.errors == errors)
+    if (c->rigs_only && e.kind == BT_CASE_LANDING && r->reader.errors == errors)
         bt_reader_error(&r->reader, node->where, "%s: the study describes rigs and no landing",
                         path);
     c->row_count += t->row_count;
@@ -471,7 +472,7 @@ static void read_whole(reading* r, const bt_node* root, const char* name, int le
 
 static void read_root(reading* r, const bt_node* root) {
     static const char* const keys[] = {"parameters", "targets", "under", "steps", "starts", NULL};
-    bt_experiment common = {0};
+    bt_simulated_case common = {0};
     if (!bt_reader_is_mapping(&r->reader, root, "calibration"))
         return;
     bt_reader_known_keys(&r->reader, root, "", keys, NULL);
@@ -490,8 +491,8 @@ static void set_base(bt_calibration* c, const bt_study* study) {
     c->base.model = study->model;
     c->base.rigs = study->rigs;
     c->rigs_only = study->rigs_only;
-    if (c->base.model.landing.distance_m < BT_SWEEP_CLEAR_DISTANCE_M)
-        c->base.model.landing.distance_m = BT_SWEEP_CLEAR_DISTANCE_M;
+    if (c->base.model.landing.distance_m < BT_CLEAR_DISTANCE_M)
+        c->base.model.landing.distance_m = BT_CLEAR_DISTANCE_M;
 }
 
 static bt_status read_text(reading* r, const char* text, size_t size) {

@@ -1,7 +1,7 @@
 #include "campaign/ledger.h"
 
+#include "base/directory.h"
 #include "base/units.h"
-#include "campaign/directory.h"
 
 #include <errno.h>
 #include <math.h>

@@ -1,8 +1,8 @@
 #include "cli/cli.h"
 
+#include "base/directory.h"
 #include "base/units.h"
 #include "calibration/calibration.h"
-#include "campaign/directory.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 #ifndef BT_CLI_CHAIN_H
 #define BT_CLI_CHAIN_H
 
+#include "base/directory.h"
 #include "campaign/campaign.h"
-#include "campaign/directory.h"
 #include "cli/cli.h"
 #include "surrogate/surrogate.h"
 

@@ -1,7 +1,7 @@
 #include "cli/cli.h"
 #include "cli/version.h"
 
-#include "campaign/arithmetic.h"
+#include "base/arithmetic.h"
 #include "study/reader.h"
 
 #include <limits.h>

@@ -1,7 +1,7 @@
-#include "campaign/noise.h"
+#include "pipeline/noise.h"
 #include "base/units.h"
 #include "cli/cli.h"
-#include "surrogate/intervals.h"
+#include "statistics/intervals.h"
 
 #include <stdlib.h>
 #include <string.h>

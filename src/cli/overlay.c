@@ -1,6 +1,6 @@
 #include "cli/overlay.h"
 
-#include "campaign/directory.h"
+#include "base/directory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -46,9 +46,9 @@ static bt_status compute(bt_chain* chain, const bt_surrogate* surrogate,
     const int threads = (int)chain->study.campaign.threads;
     bt_progress line =
         bt_progress_start("reliability", chain->command->quiet || chain->command->json);
-    bt_truth* truth = NULL;
-    BT_TRY(bt_truth_create(&chain->study, threads, &bt_interrupted, &truth));
-    const bt_reliability_options options = {.truth = bt_truth_run,
+    bt_high_fidelity* truth = NULL;
+    BT_TRY(bt_high_fidelity_create(&chain->study, threads, &bt_interrupted, &truth));
+    const bt_reliability_options options = {.truth = bt_high_fidelity_run,
                                             .truth_user = truth,
                                             .threads = threads,
                                             .stop = &bt_interrupted,
@@ -56,7 +56,7 @@ static bt_status compute(bt_chain* chain, const bt_surrogate* surrogate,
                                             .watch_user = &line};
     const bt_status status =
         bt_reliability_run(&chain->study, surrogate, &options, result, &chain->diag);
-    bt_truth_destroy(truth);
+    bt_high_fidelity_destroy(truth);
     return status;
 }
 

@@ -1,4 +1,4 @@
-#include "campaign/directory.h"
+#include "base/directory.h"
 #include "cli/cli.h"
 #include "report/rig_report.h"
 

@@ -1,6 +1,6 @@
 #include "base/units.h"
-#include "campaign/noise.h"
 #include "cli/cli.h"
+#include "pipeline/noise.h"
 
 #include <math.h>
 #include <stdlib.h>

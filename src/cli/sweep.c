@@ -1,9 +1,9 @@
 #include "cli/cli.h"
 
+#include "base/directory.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "campaign/directory.h"
-#include "campaign/sweep.h"
+#include "pipeline/sweep.h"
 #include "report/figure.h"
 
 #include <ctype.h>
@@ -166,8 +166,8 @@ static bt_status write_figure(const plan* p, bt_sweep* sweep, const char* folder
 static bt_model_params sweep_model(const bt_study* study, const char* key) {
     bt_model_params model = study->model;
     if (strcmp(key, "landing.distance") != 0 &&
-        model.landing.distance_m < BT_SWEEP_CLEAR_DISTANCE_M)
-        model.landing.distance_m = BT_SWEEP_CLEAR_DISTANCE_M;
+        model.landing.distance_m < BT_CLEAR_DISTANCE_M)
+        model.landing.distance_m = BT_CLEAR_DISTANCE_M;
     return model;
 }
 

@@ -4,8 +4,8 @@
 #ifndef BT_LANDING_CABLE_CONTACT_H
 #define BT_LANDING_CABLE_CONTACT_H
 
+#include "cable/cable.h"
 #include "elements/tyre.h"
-#include "landing/cable.h"
 #include "landing/profile.h"
 
 /// A rigid body as the cable meets it: its motion from the start of the airframe step, and the

@@ -4,6 +4,10 @@
 
 #include "landing/params.h"
 
+/// A distance to the cable at which the hook ends its first bounces long before anything meets the
+/// cable, m.
+#define BT_CLEAR_DISTANCE_M 14.0
+
 typedef enum bt_outcome { BT_MISSED, BT_ENGAGED, BT_FAILED } bt_outcome;
 
 typedef enum bt_mode {

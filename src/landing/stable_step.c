@@ -1,7 +1,7 @@
 #include "landing/stable_step.h"
 
+#include "cable/cable.h"
 #include "elements/tyre.h"
-#include "landing/cable.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -13,7 +13,7 @@
 #define BT_RELIABILITY_CHECK_H
 
 #include "reliability/monte_carlo.h"
-#include "surrogate/intervals.h"
+#include "statistics/intervals.h"
 
 enum { BT_STRATA = 4 }; ///< 2 * (answer is engaged) + (near the boundary)
 

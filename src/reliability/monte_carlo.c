@@ -1,6 +1,6 @@
 #include "reliability/monte_carlo.h"
 
-#include "surrogate/tasks.h"
+#include "base/tasks.h"
 
 #include <stdlib.h>
 #include <string.h>

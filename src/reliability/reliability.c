@@ -103,7 +103,7 @@ const bt_classifier* bt_surrogate_classifier_get(const bt_surrogate_classifier* 
 
 /// Makes the planned true runs and counts them into their strata.
 static bt_status run_truth(const bt_sampler* sampler, const bt_pool* pool, bt_check* check,
-                           bt_truth_batch* truth, void* user) {
+                           bt_high_fidelity_batch* truth, void* user) {
     const size_t n = (size_t)check->picked_count, dims = (size_t)sampler->dims;
     double* x = malloc((n * dims + 1) * sizeof *x);
     int* label = malloc((n + 1) * sizeof *label);
@@ -163,7 +163,7 @@ static void clear_row(bt_reliability_row* row) {
 }
 
 bt_status bt_reliability_condition(const bt_sampler* sampler, const bt_classifier* classifier,
-                                   int64_t samples, int threads, bt_truth_batch* truth,
+                                   int64_t samples, int threads, bt_high_fidelity_batch* truth,
                                    void* truth_user, int truth_runs, double expected_error,
                                    bt_reliability_row* row) {
     const double begun_s = now_s();

@@ -4,7 +4,7 @@
 #define BT_RELIABILITY_RELIABILITY_H
 
 #include "reliability/check.h"
-#include "reliability/truth.h"
+#include "reliability/high_fidelity.h"
 #include "surrogate/surrogate.h"
 
 /// One condition: samples of the input distributions on the surrogate, and true runs of some of
@@ -42,7 +42,7 @@ typedef struct bt_reliability_result {
 typedef void bt_reliability_watch(void* user, int done, int total);
 
 typedef struct bt_reliability_options {
-    bt_truth_batch* truth; ///< NULL: no true runs, whatever the study asks for
+    bt_high_fidelity_batch* truth; ///< NULL: no true runs, whatever the study asks for
     void* truth_user;
     int threads;                 ///< for the samples; 0: one per core
     const atomic_int* stop;      ///< may be NULL; once not 0: BT_ERR_INTERRUPTED
@@ -63,9 +63,9 @@ typedef struct bt_reliability_options {
 /// @return BT_OK, BT_ERR_MEMORY, or what the truth returned
 BT_CHECKED bt_status bt_reliability_condition(const bt_sampler* sampler,
                                               const bt_classifier* classifier, int64_t samples,
-                                              int threads, bt_truth_batch* truth, void* truth_user,
-                                              int truth_runs, double expected_error,
-                                              bt_reliability_row* row);
+                                              int threads, bt_high_fidelity_batch* truth,
+                                              void* truth_user, int truth_runs,
+                                              double expected_error, bt_reliability_row* row);
 
 /// Evaluates every condition of a study and the study as it stands. The same bits for any number
 /// of threads but for the seconds.

@@ -1,7 +1,7 @@
 #include "reliability/sobol_indices.h"
 
 #include "base/rng.h"
-#include "surrogate/tasks.h"
+#include "base/tasks.h"
 
 #include <math.h>
 #include <stdlib.h>

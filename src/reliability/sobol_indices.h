@@ -12,7 +12,7 @@
 #define BT_RELIABILITY_SOBOL_INDICES_H
 
 #include "reliability/monte_carlo.h"
-#include "surrogate/intervals.h"
+#include "statistics/intervals.h"
 
 /// f at n points (row-major, the sampler's variables). Called from several threads at once.
 typedef void bt_function(void* user, const double* x, int n, double* f);

@@ -1,8 +1,8 @@
 #define _GNU_SOURCE /* posix_spawn_file_actions_addchdir_np, pipe2 */
 #include "report/figure.h"
 
+#include "base/directory.h"
 #include "base/text.h"
-#include "campaign/directory.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -2,9 +2,9 @@
 #ifndef BT_REPORT_RIG_REPORT_H
 #define BT_REPORT_RIG_REPORT_H
 
-#include "calibration/measured.h"
 #include "report/json.h"
 #include "report/rig_record.h"
+#include "study/measured.h"
 
 /// The measured curves of one rig, bound to the columns of its record.
 typedef struct bt_rig_curves {

@@ -17,7 +17,7 @@ static double loss_of(double u) {
     return u > 0 ? log1p(exp(-u)) : log1p(exp(u)) - u;
 }
 
-double bt_answer_loss(const double* agreement, int n) {
+double bt_score_loss(const double* agreement, int n) {
     double least = 0, greatest = slope_greatest;
     for (int i = 0; i < 50; ++i) {
         const double middle = 0.5 * (least + greatest);

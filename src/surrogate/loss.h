@@ -12,6 +12,6 @@
 /// confident error, and so tells two classifiers apart on fewer points.
 ///
 /// @param agreement  [n] y_i f_i, finite: positive where the answer is right
-double bt_answer_loss(const double* agreement, int n);
+double bt_score_loss(const double* agreement, int n);
 
 #endif

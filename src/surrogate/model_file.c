@@ -1,6 +1,6 @@
 #include "surrogate/surrogate.h"
 
-#include "campaign/directory.h"
+#include "base/directory.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 #include "surrogate/relevance.h"
 
-#include "surrogate/tasks.h"
+#include "base/tasks.h"
 
 #include <math.h>
 #include <stdlib.h>

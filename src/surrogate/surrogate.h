@@ -10,8 +10,8 @@
 #ifndef BT_SURROGATE_SURROGATE_H
 #define BT_SURROGATE_SURROGATE_H
 
+#include "statistics/intervals.h"
 #include "study/study.h"
-#include "surrogate/intervals.h"
 
 #include <stdint.h>
 
@@ -24,13 +24,13 @@ typedef struct bt_training_set {
 
 /// One (C, gamma) of the grid. A cell may be tried on growing parts of the training landings; the
 /// last trial is kept.
-typedef struct bt_grid_cell {
+typedef struct bt_grid_point {
     double C, gamma;
     int trained_on; ///< landings of the cross-validation; 0: not tried, its row had stopped gaining
     int correct;    ///< of them, right when left out
     double loss;    ///< mean cross-entropy of the answers (loss.h); INFINITY: too hard to train
     int round;      ///< 1, 2, 3: how often its lot came up
-} bt_grid_cell;
+} bt_grid_point;
 
 enum { BT_GRID_MAX = BT_LIST_MAX * BT_LIST_MAX };
 
@@ -62,7 +62,7 @@ typedef struct bt_surrogate {
 /// How a surrogate came about: the whole grid.
 typedef struct bt_grid {
     int count;
-    bt_grid_cell cell[BT_GRID_MAX]; ///< C varies fastest; the chosen one is at `best`
+    bt_grid_point cell[BT_GRID_MAX]; ///< C varies fastest; the chosen one is at `best`
     int best;
 } bt_grid;
 

@@ -1,7 +1,7 @@
+#include "base/tasks.h"
 #include "surrogate/loss.h"
 #include "surrogate/predictor.h"
 #include "surrogate/relevance.h"
-#include "surrogate/tasks.h"
 
 #include "base/rng.h"
 
@@ -55,8 +55,8 @@ typedef struct trainer {
     int* holdout;
     int holdout_count;
     bt_grid* grid;
-    int rows, columns;  ///< gammas, Cs
-    bt_grid_cell probe; ///< where the weights of the inputs are compared
+    int rows, columns;   ///< gammas, Cs
+    bt_grid_point probe; ///< where the weights of the inputs are compared
     // of the round
     int cell[BT_GRID_MAX], cells, share[2]; ///< cells to try, landings of each class
     struct answers* answers;                ///< [cells * folds]
@@ -267,14 +267,14 @@ static bt_status ask(const trainer* t, const bt_surrogate* machine, const int* l
         agreement[i] = t->set->label[list[i]] * f;
         out->correct += (f > 0) == (t->set->label[list[i]] > 0);
     }
-    out->loss = bt_answer_loss(agreement, n);
+    out->loss = bt_score_loss(agreement, n);
     free(agreement);
     return BT_OK;
 }
 
 /// One fold of one cell: trains on the other folds, asks about this one. The i-th landing of each
 /// class belongs to fold i modulo the number of folds.
-static bt_status run_fold(const trainer* t, const bt_grid_cell* cell, int fold, answers* out) {
+static bt_status run_fold(const trainer* t, const bt_grid_point* cell, int fold, answers* out) {
     const int folds = t->folds, total = t->share[0] + t->share[1];
     int* learn = malloc(2 * ((size_t)total + 1) * sizeof *learn);
     if (!learn)
@@ -307,7 +307,7 @@ static bt_status run_fold(const trainer* t, const bt_grid_cell* cell, int fold, 
 }
 
 static void score_cell(trainer* t, int cell, const answers* of_fold) {
-    bt_grid_cell* c = &t->grid->cell[cell];
+    bt_grid_point* c = &t->grid->cell[cell];
     c->correct = 0;
     c->loss = 0;
     for (int fold = 0; fold < t->folds; ++fold) {
@@ -362,7 +362,7 @@ static bt_status run_cell_fold(void* user, int task, int worker) {
 }
 
 /// Better: not too hard, tried in a later round, less loss, then the smoother machine.
-static bool cell_before(const bt_grid_cell* a, const bt_grid_cell* b) {
+static bool cell_before(const bt_grid_point* a, const bt_grid_point* b) {
     if (isinf(a->loss) != isinf(b->loss))
         return isinf(b->loss);
     if (a->round != b->round)
@@ -481,7 +481,7 @@ static bt_status choose_weights(trainer* t, bt_surrogate* out) {
     for (int k = 0; k < t->dims; ++k)
         varies[k] = out->greatest[k] > out->least[k];
     size_round(t, round_size[0]);
-    t->probe = (bt_grid_cell){.C = probe_C, .gamma = probe_gamma_of(t)};
+    t->probe = (bt_grid_point){.C = probe_C, .gamma = probe_gamma_of(t)};
     const bt_relevance relevance = {.dims = t->dims,
                                     .folds = weight_folds * t->folds,
                                     .varies = varies,
@@ -527,7 +527,7 @@ static void lay_grid(trainer* t) {
     *t->grid = (bt_grid){.count = t->rows * t->columns};
     for (int row = 0; row < t->rows; ++row)
         for (int column = 0; column < t->columns; ++column) {
-            bt_grid_cell* cell = &t->grid->cell[row * t->columns + column];
+            bt_grid_point* cell = &t->grid->cell[row * t->columns + column];
             cell->C = C->count ? C->value[column] : default_C[column];
             cell->gamma = gamma->count ? gamma->value[row] : default_gamma[row];
         }
@@ -593,7 +593,7 @@ static bt_status score(const trainer* t, bt_surrogate* out) {
 /// The chosen machine, of everything that was not held out. Should LIBSVM give up nevertheless, a
 /// softer one is taken.
 static bt_status fit_all(const trainer* t, bt_surrogate* out) {
-    const bt_grid_cell* best = &t->grid->cell[t->grid->best];
+    const bt_grid_point* best = &t->grid->cell[t->grid->best];
     const int n = t->train[0] + t->train[1];
     BT_TRY(fit_one(t, t->list, n, best->C, best->gamma, final_tolerance, out));
     while ((double)iterations >= fmax(libsvm_iterations, 100.0 * n)) {

@@ -1,7 +1,7 @@
 #define _GNU_SOURCE
 #include "near.h"
 
-#include "campaign/arithmetic.h"
+#include "base/arithmetic.h"
 
 #include <fenv.h>
 #ifdef __SSE2__

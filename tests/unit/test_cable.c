@@ -1,5 +1,5 @@
 /// The cable's parameters, mesh, contacts and questions.
-#include "landing/cable.h"
+#include "cable/cable.h"
 
 #include <stdio.h>
 #include <stdlib.h>

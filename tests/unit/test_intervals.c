@@ -1,6 +1,6 @@
 #include "near.h"
 
-#include "surrogate/intervals.h"
+#include "statistics/intervals.h"
 
 /// P(X <= k) of a binomial, summed term by term.
 static double binomial_cdf(int k, int n, double p) {

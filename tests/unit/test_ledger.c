@@ -1,8 +1,8 @@
 #define _GNU_SOURCE
 #include "near.h"
 
+#include "base/directory.h"
 #include "campaign/campaign.h"
-#include "campaign/directory.h"
 #include "toy_study.h"
 
 #include <signal.h>

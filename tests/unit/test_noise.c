@@ -1,6 +1,6 @@
 #include "reference.h"
 
-#include "campaign/noise.h"
+#include "pipeline/noise.h"
 #include <stdlib.h>
 
 static bt_noise_landing landing(bt_outcome outcome, double margin_m) {

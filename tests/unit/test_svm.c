@@ -212,7 +212,7 @@ static void training_learns_a_curved_band_and_the_holdout_says_so(void** state) 
     assert_true(right / 20000.0 > wide.least && right / 20000.0 < wide.greatest);
     // the grid is whole: six penalties times five widths, and the chosen one among the tried
     assert_int_equal(grid->count, 30);
-    const bt_grid_cell* best = &grid->cell[grid->best];
+    const bt_grid_point* best = &grid->cell[grid->best];
     assert_true(best->trained_on > 0 && best->C == s.C && best->gamma == s.gamma);
     assert_true((double)best->correct / best->trained_on > 0.97);
     int confusion = 0;

@@ -2,7 +2,7 @@
 // promises. The four fitted numbers of the hook make some of these hold: see aircraft.yaml.
 #include "reference.h"
 
-#include "campaign/sweep.h"
+#include "pipeline/sweep.h"
 
 /// The reference model with the cable out of the way and coarse: nothing touches it before the
 /// first bounce is over.

@@ -2,7 +2,7 @@
 #ifndef BT_TESTS_CABLE_CASE_H
 #define BT_TESTS_CABLE_CASE_H
 
-#include "landing/cable.h"
+#include "cable/cable.h"
 
 #include <stdlib.h>
 

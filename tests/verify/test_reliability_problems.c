@@ -3,8 +3,8 @@
 /// g >= 0 counts as engaged, so that 1 - R is the listed probability.
 #include "near.h"
 
+#include "reliability/high_fidelity.h"
 #include "reliability/monte_carlo.h"
-#include "reliability/truth.h"
 
 static double rp8(const double* x) {
     return x[0] + 2 * x[1] + 2 * x[2] + x[3] - 5 * x[4] - 5 * x[5];

@@ -1,4 +1,4 @@
-#include "campaign/arithmetic.h"
+#include "base/arithmetic.h"
 
 #include <fenv.h>
 #include <float.h>

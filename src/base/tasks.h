@@ -1,7 +1,7 @@
 /// Independent tasks on threads. Which thread runs a task never shows in a result: a task writes
 /// only what is its own, and sums are made afterwards in task order.
-#ifndef BT_SURROGATE_TASKS_H
-#define BT_SURROGATE_TASKS_H
+#ifndef BT_BASE_TASKS_H
+#define BT_BASE_TASKS_H
 
 #include "base/status.h"
 

@@ -5,8 +5,8 @@
 ///
 /// Frame: the deck frame (x forward, y to port, z up, deck z = 0); the rope runs along y from
 /// segment 0 (starboard, -y) to segment count - 1 (port, +y). SI units.
-#ifndef BT_LANDING_CABLE_H
-#define BT_LANDING_CABLE_H
+#ifndef BT_CABLE_CABLE_H
+#define BT_CABLE_CABLE_H
 
 #include "base/arena.h"
 #include "base/diag.h"

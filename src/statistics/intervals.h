@@ -1,6 +1,6 @@
 /// Exact confidence intervals for a proportion, and the beta distribution they need.
-#ifndef BT_SURROGATE_INTERVALS_H
-#define BT_SURROGATE_INTERVALS_H
+#ifndef BT_STATISTICS_INTERVALS_H
+#define BT_STATISTICS_INTERVALS_H
 
 #include <stdint.h>
 

@@ -1,8 +1,8 @@
-#include "calibration/measured.h"
+#include "study/measured.h"
 
+#include "base/directory.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "campaign/directory.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-#include "surrogate/tasks.h"
+#include "base/tasks.h"
 
 #include <limits.h>
 #include <pthread.h>

@@ -1,4 +1,4 @@
-#include "campaign/sweep.h"
+#include "pipeline/sweep.h"
 
 #include "base/text.h"
 #include "base/units.h"

@@ -1,9 +1,9 @@
 /// The truth: fresh landings of the full model, for a check of the surrogate or as the referee.
-#ifndef BT_RELIABILITY_TRUTH_H
-#define BT_RELIABILITY_TRUTH_H
+#ifndef BT_RELIABILITY_HIGH_FIDELITY_H
+#define BT_RELIABILITY_HIGH_FIDELITY_H
 
 #include "reliability/sampler.h"
-#include "surrogate/intervals.h"
+#include "statistics/intervals.h"
 
 #include <stdatomic.h>
 
@@ -11,22 +11,22 @@
 ///
 /// @param x      [n * inputs] row-major, SI, in the order of the study's inputs
 /// @param label  [n] 1 engaged, 0 missed, -1 failed (no outcome)
-typedef bt_status bt_truth_batch(void* user, const double* x, int n, int* label);
+typedef bt_status bt_high_fidelity_batch(void* user, const double* x, int n, int* label);
 
 /// Landings of a study's model on threads, one lander each. Same labels for any number of threads.
-typedef struct bt_truth bt_truth;
+typedef struct bt_high_fidelity bt_high_fidelity;
 
 /// @param threads  0: one per core
 /// @param stop     may be NULL; once not 0, landings in flight end and no more begin
 /// @return BT_OK or BT_ERR_MEMORY. The study must outlive the truth.
-BT_CHECKED bt_status bt_truth_create(const bt_study* study, int threads, const atomic_int* stop,
-                                     bt_truth** truth);
-void bt_truth_destroy(bt_truth* truth);
+BT_CHECKED bt_status bt_high_fidelity_create(const bt_study* study, int threads,
+                                             const atomic_int* stop, bt_high_fidelity** truth);
+void bt_high_fidelity_destroy(bt_high_fidelity* truth);
 
-/// A bt_truth_batch whose user is a bt_truth. A run that diverges, and a point outside what the
-/// model allows (a tail of its distribution), has no outcome: -1. Returns BT_OK, BT_ERR_INPUT (the
-/// landing cannot be assembled), BT_ERR_INTERRUPTED, BT_ERR_MEMORY.
-BT_CHECKED bt_status bt_truth_run(void* truth, const double* x, int n, int* label);
+/// A bt_high_fidelity_batch whose user is a bt_high_fidelity. A run that diverges, and a point
+/// outside what the model allows (a tail of its distribution), has no outcome: -1. Returns BT_OK,
+/// BT_ERR_INPUT (the landing cannot be assembled), BT_ERR_INTERRUPTED, BT_ERR_MEMORY.
+BT_CHECKED bt_status bt_high_fidelity_run(void* truth, const double* x, int n, int* label);
 
 /// Direct Monte Carlo on the truth: the referee that needs no surrogate.
 typedef struct bt_direct_result {
@@ -37,7 +37,7 @@ typedef struct bt_direct_result {
 
 /// Samples 0 .. samples - 1 of the sampler, whose variables are what the truth takes. Returns what
 /// the truth returns, or BT_ERR_MEMORY.
-BT_CHECKED bt_status bt_direct_monte_carlo(const bt_sampler* sampler, bt_truth_batch* truth,
+BT_CHECKED bt_status bt_direct_monte_carlo(const bt_sampler* sampler, bt_high_fidelity_batch* truth,
                                            void* user, int64_t samples, bt_direct_result* result);
 
 #endif

@@ -1,4 +1,4 @@
-#include "surrogate/intervals.h"
+#include "statistics/intervals.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "calibration/experiment.h"
+#include "calibration/simulated_case.h"
 
 #include "landing/view.h"
 
@@ -40,21 +40,21 @@ static const bt_metric_name rebound_metrics[] = {
     {"damper_stroke_max", "m"}, {"restitution", "1"},     {NULL, NULL},
 };
 
-const bt_metric_name* bt_experiment_metrics(bt_experiment_kind kind) {
-    static const bt_metric_name* const metrics[BT_EXPERIMENT_KINDS] = {
-        landing_metrics, drop_metrics,   drop_metrics,
-        rebound_metrics, static_metrics, static_metrics};
+const bt_metric_name* bt_simulated_case_metrics(bt_simulated_case_kind kind) {
+    static const bt_metric_name* const metrics[BT_CASE_KINDS] = {landing_metrics, drop_metrics,
+                                                                 drop_metrics,    rebound_metrics,
+                                                                 static_metrics,  static_metrics};
     return metrics[kind];
 }
 
-const char* bt_experiment_prefix(bt_experiment_kind kind) {
+const char* bt_simulated_case_prefix(bt_simulated_case_kind kind) {
     static const char* const prefixes[] = {
         "", "nose_drop.", "main_drop.", "hook_rebound.", "nose_static.", "main_static."};
     return prefixes[kind];
 }
 
-bt_specimen_part bt_experiment_part(bt_experiment_kind kind) {
-    static const bt_specimen_part parts[BT_EXPERIMENT_KINDS] = {
+bt_parameter_set_part bt_simulated_case_part(bt_simulated_case_kind kind) {
+    static const bt_parameter_set_part parts[BT_CASE_KINDS] = {
         BT_PART_LANDING, BT_PART_NOSE_GEAR, BT_PART_MAIN_GEAR,
         BT_PART_HOOK,    BT_PART_NOSE_GEAR, BT_PART_MAIN_GEAR};
     return parts[kind];
@@ -176,7 +176,7 @@ static void track_landing(void* user, const bt_landing_view* view) {
 
 // --- runs -------------------------------------------------------------------------------------
 
-static bt_status run_landing(bt_lander* lander, const bt_specimen* specimen, double* metric,
+static bt_status run_landing(bt_lander* lander, const bt_parameter_set* specimen, double* metric,
                              tracker* t, bt_diag* diag) {
     bt_landing_result result;
     BT_TRY(
@@ -189,37 +189,38 @@ static bt_status run_landing(bt_lander* lander, const bt_specimen* specimen, dou
     return BT_OK;
 }
 
-static bt_rig_kind rig_of(bt_experiment_kind kind) {
-    return (bt_rig_kind)(BT_RIG_NOSE_DROP + (kind - BT_EXPERIMENT_NOSE_DROP));
+static bt_rig_kind rig_of(bt_simulated_case_kind kind) {
+    return (bt_rig_kind)(BT_RIG_NOSE_DROP + (kind - BT_CASE_NOSE_DROP));
 }
 
-void bt_experiment_void(double* metric, const bt_followed* followed, int followed_count) {
-    for (int i = 0; i < BT_EXPERIMENT_METRIC_MAX; ++i)
+void bt_simulated_case_void(double* metric, const bt_followed* followed, int followed_count) {
+    for (int i = 0; i < BT_CASE_METRIC_MAX; ++i)
         metric[i] = NAN;
     for (int i = 0; i < followed_count; ++i)
         for (int k = 0; k < followed[i].measured->count; ++k)
             followed[i].got[k] = NAN;
 }
 
-bt_status bt_experiment_run(bt_lander* lander, bt_experiment_kind kind, const bt_specimen* specimen,
-                            double* metric, const bt_followed* followed, int followed_count,
-                            bt_diag* diag) {
+bt_status bt_simulated_case_run(bt_lander* lander, bt_simulated_case_kind kind,
+                                const bt_parameter_set* specimen, double* metric,
+                                const bt_followed* followed, int followed_count, bt_diag* diag) {
     tracker t = {.followed = followed, .count = followed_count};
-    bt_experiment_void(metric, followed, followed_count);
-    if (kind == BT_EXPERIMENT_LANDING)
+    bt_simulated_case_void(metric, followed, followed_count);
+    if (kind == BT_CASE_LANDING)
         return run_landing(lander, specimen, metric, &t, diag);
     bt_rig_result result;
     const bt_status status = bt_rig_run(rig_of(kind), &specimen->model.aircraft, &specimen->rigs,
                                         &result, followed_count ? track_rig : NULL, &t, diag);
     if (status == BT_OK)
-        rig_values(bt_experiment_metrics(kind), &result, metric);
+        rig_values(bt_simulated_case_metrics(kind), &result, metric);
     return status == BT_ERR_NUMERIC ? BT_OK : status;
 }
 
 // --- columns of a curve -----------------------------------------------------------------------
 
-bt_status bt_experiment_bind(bt_experiment_kind kind, bt_measured* measured, bt_diag* diag) {
-    if (kind == BT_EXPERIMENT_LANDING)
+bt_status bt_simulated_case_bind(bt_simulated_case_kind kind, bt_measured* measured,
+                                 bt_diag* diag) {
+    if (kind == BT_CASE_LANDING)
         return bt_measured_bind(measured, landing_columns, LANDING_COLUMN_COUNT, diag);
     const char* names[1 + BT_RIG_CHANNEL_MAX] = {"time_s"};
     int count;

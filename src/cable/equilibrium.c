@@ -1,7 +1,7 @@
 /// Static equilibrium of the cable: Newton's method on the forces of the stepping kernel, in the
 /// plane x = 0, three unknowns (y, z, rotation about x) per segment, block-tridiagonal Jacobian by
 /// central differences in three colours.
-#include "landing/cable_kernel.h"
+#include "cable/cable_kernel.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,14 +1,10 @@
 /// Parameter studies: one key over several values, one landing each  [Peng2023 Sec. 4].
-#ifndef BT_CAMPAIGN_SWEEP_H
-#define BT_CAMPAIGN_SWEEP_H
+#ifndef BT_PIPELINE_SWEEP_H
+#define BT_PIPELINE_SWEEP_H
 
 #include "landing/landing.h"
 
 enum { BT_SWEEP_VALUES_MAX = 64 };
-
-/// A distance to the cable at which the hook ends its first bounces long before anything meets the
-/// cable, m.
-#define BT_SWEEP_CLEAR_DISTANCE_M 14.0
 
 /// The way of the lowest point of the hook's head from its first contact with the deck on.
 typedef struct bt_hook_path {

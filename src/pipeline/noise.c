@@ -1,4 +1,4 @@
-#include "campaign/noise.h"
+#include "pipeline/noise.h"
 
 #include <math.h>
 #include <stdlib.h>

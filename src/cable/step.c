@@ -1,5 +1,5 @@
 /// One step of the cable, and what can be asked of it.
-#include "landing/cable_kernel.h"
+#include "cable/cable_kernel.h"
 
 #include "mechanics/vec.h"
 

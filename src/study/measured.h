@@ -5,8 +5,8 @@
 ///     0.01, 58.2
 ///
 /// Lines that begin with # are comments.
-#ifndef BT_CALIBRATION_MEASURED_H
-#define BT_CALIBRATION_MEASURED_H
+#ifndef BT_STUDY_MEASURED_H
+#define BT_STUDY_MEASURED_H
 
 #include "base/diag.h"
 

@@ -1,32 +1,32 @@
 /// What an experiment is made on: the model of a landing and the rigs, addressed by one set of
 /// paths ("aircraft.hook.length", "landing.pitch", "rigs.nose_drop.sink_speed").
-#ifndef BT_CALIBRATION_SPECIMEN_H
-#define BT_CALIBRATION_SPECIMEN_H
+#ifndef BT_CALIBRATION_PARAMETER_SET_H
+#define BT_CALIBRATION_PARAMETER_SET_H
 
 #include "rigs/rigs.h"
 
-typedef struct bt_specimen {
+typedef struct bt_parameter_set {
     bt_model_params model;
     bt_rigs_params rigs;
-} bt_specimen;
+} bt_parameter_set;
 
 /// Finds a field by its path. Returns NULL when there is none. *offset is that of the member in
-/// bt_specimen.
-const bt_field* bt_specimen_find(const char* path, size_t* offset);
+/// bt_parameter_set.
+const bt_field* bt_parameter_set_find(const char* path, size_t* offset);
 
 /// The path of a number nearest to what was typed, into `best`.
-void bt_specimen_nearest(const char* typed, char* best, size_t size);
+void bt_parameter_set_nearest(const char* typed, char* best, size_t size);
 
 /// What an experiment on a specimen needs of it.
-typedef enum bt_specimen_part {
+typedef enum bt_parameter_set_part {
     BT_PART_LANDING, ///< the whole model
     BT_PART_NOSE_GEAR,
     BT_PART_MAIN_GEAR,
     BT_PART_HOOK,
-} bt_specimen_part;
+} bt_parameter_set_part;
 
 /// Checks a part, and the rigs where it is not a landing; messages as bt_group_check.
-BT_CHECKED bt_status bt_specimen_check(const bt_specimen* specimen, bt_specimen_part part,
-                                       bt_diag* diag);
+BT_CHECKED bt_status bt_parameter_set_check(const bt_parameter_set* specimen,
+                                            bt_parameter_set_part part, bt_diag* diag);
 
 #endif

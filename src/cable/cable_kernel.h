@@ -1,9 +1,9 @@
 /// The cable's kernel: the loops over joints and segments, built once per instruction-set level.
 /// Level v1, without contraction, is the definition; the others may fuse multiply and add.
-#ifndef BT_LANDING_CABLE_KERNEL_H
-#define BT_LANDING_CABLE_KERNEL_H
+#ifndef BT_CABLE_CABLE_KERNEL_H
+#define BT_CABLE_CABLE_KERNEL_H
 
-#include "landing/cable.h"
+#include "cable/cable.h"
 
 #define BT_CABLE_KERNEL_DECLARE(level)                                                             \
     void bt_cable_joints_##level(const bt_cable_model* model, bt_cable_state* state);              \

@@ -1,11 +1,11 @@
 /// Running one experiment: a landing or a rig, what it reports, and its history beside a measured
 /// curve.
-#ifndef BT_CALIBRATION_EXPERIMENT_H
-#define BT_CALIBRATION_EXPERIMENT_H
+#ifndef BT_CALIBRATION_SIMULATED_CASE_H
+#define BT_CALIBRATION_SIMULATED_CASE_H
 
 #include "calibration/calibration.h"
 
-enum { BT_EXPERIMENT_METRIC_MAX = 24 };
+enum { BT_CASE_METRIC_MAX = 24 };
 
 typedef struct bt_metric_name {
     const char* name;  ///< "bounce_height"
@@ -15,14 +15,14 @@ typedef struct bt_metric_name {
 /// The metrics of a kind of experiment; ends with a NULL name. A landing: the first bounce
 /// (bounce_height, bounce_distance, impact_force), second_bounce_height, peak loads, strokes, and
 /// what the cable did (margin, throat_force_peak, cable_tension_max).
-const bt_metric_name* bt_experiment_metrics(bt_experiment_kind kind);
+const bt_metric_name* bt_simulated_case_metrics(bt_simulated_case_kind kind);
 
 /// "", "nose_drop.", "main_drop.", "hook_rebound.", "nose_static.", "main_static.": what stands
 /// before a metric's name.
-const char* bt_experiment_prefix(bt_experiment_kind kind);
+const char* bt_simulated_case_prefix(bt_simulated_case_kind kind);
 
 /// What an experiment is run on.
-bt_specimen_part bt_experiment_part(bt_experiment_kind kind);
+bt_parameter_set_part bt_simulated_case_part(bt_simulated_case_kind kind);
 
 /// A measured curve to follow and where its model values go.
 typedef struct bt_followed {
@@ -31,19 +31,19 @@ typedef struct bt_followed {
 } bt_followed;
 
 /// Runs one experiment on a checked specimen.
-/// @param metric   [BT_EXPERIMENT_METRIC_MAX]; NAN where there is none (no bounce, run failed)
+/// @param metric   [BT_CASE_METRIC_MAX]; NAN where there is none (no bounce, run failed)
 /// @return BT_OK also for a run that diverged (said in diag as a warning, all metrics NAN);
 ///         BT_ERR_MEMORY
-BT_CHECKED bt_status bt_experiment_run(bt_lander* lander, bt_experiment_kind kind,
-                                       const bt_specimen* specimen, double* metric,
-                                       const bt_followed* followed, int followed_count,
-                                       bt_diag* diag);
+BT_CHECKED bt_status bt_simulated_case_run(bt_lander* lander, bt_simulated_case_kind kind,
+                                           const bt_parameter_set* specimen, double* metric,
+                                           const bt_followed* followed, int followed_count,
+                                           bt_diag* diag);
 
 /// No value anywhere: what a run that was not possible reports.
-void bt_experiment_void(double* metric, const bt_followed* followed, int followed_count);
+void bt_simulated_case_void(double* metric, const bt_followed* followed, int followed_count);
 
 /// Finds the columns of a measured curve in the history of an experiment (bt_measured_bind).
-BT_CHECKED bt_status bt_experiment_bind(bt_experiment_kind kind, bt_measured* measured,
-                                        bt_diag* diag);
+BT_CHECKED bt_status bt_simulated_case_bind(bt_simulated_case_kind kind, bt_measured* measured,
+                                            bt_diag* diag);
 
 #endif

@@ -1,7 +1,7 @@
 /// Label noise: the share of landings whose outcome changes when the computation is refined. No
 /// surrogate can be more right than its labels are; this says how right they are.
-#ifndef BT_CAMPAIGN_NOISE_H
-#define BT_CAMPAIGN_NOISE_H
+#ifndef BT_PIPELINE_NOISE_H
+#define BT_PIPELINE_NOISE_H
 
 #include "campaign/executor.h"
 

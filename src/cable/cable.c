@@ -1,4 +1,4 @@
-#include "landing/cable_kernel.h"
+#include "cable/cable_kernel.h"
 
 #include <math.h>
 #include <string.h>

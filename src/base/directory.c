@@ -1,4 +1,4 @@
-#include "campaign/directory.h"
+#include "base/directory.h"
 
 #include <errno.h>
 #include <fcntl.h>

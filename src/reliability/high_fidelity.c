@@ -1,7 +1,7 @@
-#include "reliability/truth.h"
+#include "reliability/high_fidelity.h"
 
+#include "base/tasks.h"
 #include "campaign/executor.h"
-#include "surrogate/tasks.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@ typedef struct seat {
     bt_model_params model;
 } seat;
 
-struct bt_truth {
+struct bt_high_fidelity {
     const bt_study* study;
     bt_axes inputs; ///< all of them
     int threads;
@@ -20,9 +20,9 @@ struct bt_truth {
     seat* seats;
 };
 
-bt_status bt_truth_create(const bt_study* study, int threads, const atomic_int* stop,
-                          bt_truth** truth) {
-    bt_truth* t = calloc(1, sizeof *t);
+bt_status bt_high_fidelity_create(const bt_study* study, int threads, const atomic_int* stop,
+                                  bt_high_fidelity** truth) {
+    bt_high_fidelity* t = calloc(1, sizeof *t);
     *truth = NULL;
     if (!t)
         return BT_ERR_MEMORY;
@@ -41,11 +41,11 @@ bt_status bt_truth_create(const bt_study* study, int threads, const atomic_int* 
     if (status == BT_OK)
         *truth = t;
     else
-        bt_truth_destroy(t);
+        bt_high_fidelity_destroy(t);
     return status;
 }
 
-void bt_truth_destroy(bt_truth* truth) {
+void bt_high_fidelity_destroy(bt_high_fidelity* truth) {
     if (!truth)
         return;
     for (int i = 0; truth->seats && i < truth->threads; ++i)
@@ -55,14 +55,14 @@ void bt_truth_destroy(bt_truth* truth) {
 }
 
 typedef struct batch {
-    const bt_truth* truth;
+    const bt_high_fidelity* truth;
     const double* x;
     int* label;
 } batch;
 
 static bt_status run_point(void* user, int point, int worker) {
     const batch* b = user;
-    const bt_truth* t = b->truth;
+    const bt_high_fidelity* t = b->truth;
     if (t->stop && atomic_load(t->stop))
         return BT_ERR_INTERRUPTED;
     seat* s = &t->seats[worker];
@@ -74,8 +74,8 @@ static bt_status run_point(void* user, int point, int worker) {
     return BT_OK;
 }
 
-bt_status bt_truth_run(void* truth, const double* x, int n, int* label) {
-    const bt_truth* t = truth;
+bt_status bt_high_fidelity_run(void* truth, const double* x, int n, int* label) {
+    const bt_high_fidelity* t = truth;
     batch b = {t, x, label};
     return bt_tasks_run(t->threads, n, run_point, &b);
 }
@@ -84,8 +84,8 @@ bt_status bt_truth_run(void* truth, const double* x, int n, int* label) {
 
 enum { BATCH = 1024 };
 
-bt_status bt_direct_monte_carlo(const bt_sampler* sampler, bt_truth_batch* truth, void* user,
-                                int64_t samples, bt_direct_result* result) {
+bt_status bt_direct_monte_carlo(const bt_sampler* sampler, bt_high_fidelity_batch* truth,
+                                void* user, int64_t samples, bt_direct_result* result) {
     *result = (bt_direct_result){0};
     double* x = malloc((size_t)BATCH * (size_t)sampler->dims * sizeof *x);
     int* label = malloc(BATCH * sizeof *label);

@@ -1,7 +1,7 @@
 /// The study directory: where everything a study produces is kept. One process at a time writes
 /// in it; every file appears under its name only when it is complete.
-#ifndef BT_CAMPAIGN_DIRECTORY_H
-#define BT_CAMPAIGN_DIRECTORY_H
+#ifndef BT_BASE_DIRECTORY_H
+#define BT_BASE_DIRECTORY_H
 
 #include "base/diag.h"
 
