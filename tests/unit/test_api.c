@@ -95,8 +95,121 @@ static void overrides_are_read_as_on_the_command_line(void** state) {
     assert_int_equal(bt_case_open(reference, wrong, 1, NULL, NULL, &c), BT_ERR_INPUT);
 }
 
+static void the_library_is_of_the_version_of_its_headers(void** state) {
+    (void)state;
+    assert_string_equal(bt_version(), "0.2.0");
+    assert_int_equal(BT_VERSION_MINOR, 2);
+}
+
+static void a_text_changes_any_key_and_numbers_set_before_stay(void** state) {
+    (void)state;
+    char said[256] = "";
+    bt_case* c = NULL;
+    double value = 0;
+    assert_int_equal(bt_case_open(reference, NULL, 0, keep_last, said, &c), BT_OK);
+    assert_int_equal(bt_case_set(c, "landing.sink_speed", 4.123456789012345), BT_OK);
+    assert_int_equal(bt_case_set_text(c, "landing.pitch", "4 deg"), BT_OK);
+    assert_int_equal(bt_case_set_text(c, "campaign.samples", "12"), BT_OK);
+    assert_int_equal(bt_case_get(c, "landing.sink_speed", &value), BT_OK);
+    assert_true(value == 4.123456789012345);
+    assert_int_equal(bt_case_get(c, "landing.pitch", &value), BT_OK);
+    BT_ASSERT_NEAR(value, 4 * 3.14159265358979323846 / 180, 1e-15, 0);
+    assert_non_null(strstr(bt_case_text(c), "samples: 12"));
+
+    assert_int_equal(bt_case_set_text(c, "landing.pitch", "4 kg"), BT_ERR_INPUT);
+    assert_non_null(strstr(said, "landing.pitch"));
+    assert_int_equal(bt_case_set_text(c, "landing.pich", "4 deg"), BT_ERR_INPUT);
+    assert_int_equal(bt_case_get(c, "landing.pitch", &value), BT_OK);
+    BT_ASSERT_NEAR(value, 4 * 3.14159265358979323846 / 180, 1e-15, 0);
+    assert_int_equal(bt_case_set_text(c, "landing.pitch", "5 deg"), BT_OK);
+    assert_int_equal(bt_case_get(c, "landing.pitch", &value), BT_OK);
+    BT_ASSERT_NEAR(value, 5 * 3.14159265358979323846 / 180, 1e-15, 0);
+    bt_case_close(c);
+}
+
+static void a_model_needs_no_file(void** state) {
+    (void)state;
+    bt_case* c = NULL;
+    double mass = 0;
+    bt_landing_report report;
+    assert_int_equal(bt_case_open_defaults("mine.yaml", NULL, NULL, &c), BT_OK);
+    assert_int_equal(bt_case_set(c, "aircraft.mass", 21000), BT_OK);
+    assert_int_equal(bt_case_get(c, "aircraft.mass", &mass), BT_OK);
+    assert_true(mass == 21000);
+    assert_int_equal(bt_case_land(c, &report), BT_OK);
+    assert_false(report.failed);
+    assert_string_equal(bt_case_directory(c), "mine");
+    bt_case_close(c);
+}
+
+static void a_text_in_memory_is_read_with_its_places(void** state) {
+    (void)state;
+    static const char text[] = "title: x\nlandin:\n  pitch: 3 deg\n";
+    char said[256] = "";
+    bt_case* c = NULL;
+    assert_int_equal(bt_case_open_text("mine.yaml", text, strlen(text), keep_last, said, &c),
+                     BT_ERR_INPUT);
+    assert_null(c);
+    assert_non_null(strstr(said, "mine.yaml"));
+}
+
+static bool count_key(void* user, const bt_key* key) {
+    int* count = user;
+    assert_true(key->path[0] && key->text[0] && key->unit && key->kind[0]);
+    if (strcmp(key->path, "landing.sink_speed") == 0) {
+        assert_string_equal(key->unit, "m/s");
+        assert_true(key->fallback == 3.6 && key->greatest == 15);
+    }
+    return ++*count < 1000;
+}
+
+static void every_key_is_told_with_unit_range_and_meaning(void** state) {
+    (void)state;
+    int count = 0;
+    bt_keys(count_key, &count);
+    assert_in_range(count, 150, 999);
+}
+
+static void count_lines(void* user, const bt_rig_line* line) {
+    assert_true(line->count > 3 && line->names[0]);
+    ++*(int*)user;
+}
+
+static void a_rig_gives_its_metrics_and_histories(void** state) {
+    (void)state;
+    char said[256] = "";
+    int lines = 0, count = 0, fewer = 0;
+    bt_case* c = NULL;
+    bt_rig_metric metrics[32], one[1];
+    assert_int_equal(bt_case_open(reference, NULL, 0, keep_last, said, &c), BT_OK);
+    const bt_rig_def def = {
+        .size = sizeof def, .rig = "nose_drop", .watch = count_lines, .user = &lines};
+    assert_int_equal(bt_case_rig(c, &def, metrics, 32, &count), BT_OK);
+    assert_true(count >= 4 && lines > 100);
+    assert_string_equal(metrics[0].name, "stroke_max_m");
+    assert_string_equal(metrics[0].unit, "m");
+    BT_ASSERT_NEAR(metrics[0].value, 0.435, 0.03, 0);
+    assert_true(metrics[0].accepted);
+
+    const bt_rig_def alone = {.size = sizeof def, .rig = "nose_drop"};
+    assert_int_equal(bt_case_rig(c, &alone, one, 1, &fewer), BT_OK);
+    assert_int_equal(fewer, count);
+    const bt_rig_def unknown = {.size = sizeof def, .rig = "tail_drop"};
+    assert_int_equal(bt_case_rig(c, &unknown, one, 1, &fewer), BT_ERR_ARG);
+    assert_non_null(strstr(said, "tail_drop"));
+    const bt_rig_def sizeless = {.rig = "nose_drop"};
+    assert_int_equal(bt_case_rig(c, &sizeless, one, 1, &fewer), BT_ERR_ARG);
+    bt_case_close(c);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_library_is_of_the_version_of_its_headers),
+        cmocka_unit_test(a_text_changes_any_key_and_numbers_set_before_stay),
+        cmocka_unit_test(a_model_needs_no_file),
+        cmocka_unit_test(a_text_in_memory_is_read_with_its_places),
+        cmocka_unit_test(every_key_is_told_with_unit_range_and_meaning),
+        cmocka_unit_test(a_rig_gives_its_metrics_and_histories),
         cmocka_unit_test(a_case_lands_and_lands_again_with_the_same_bits),
         cmocka_unit_test(a_number_that_is_set_is_the_number_that_lands),
         cmocka_unit_test(unknown_keys_and_values_out_of_range_change_nothing),

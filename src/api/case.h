@@ -1,0 +1,38 @@
+/// What is behind the public handle of a study.
+#ifndef BT_API_CASE_H
+#define BT_API_CASE_H
+
+#include "bolter/study.h"
+
+#include "study/study.h"
+
+#include <string.h>
+
+/// Where the study came from: it is read anew when a text is set.
+typedef enum bt_case_source { BT_CASE_FILE, BT_CASE_RIGS, BT_CASE_TEXT } bt_case_source;
+
+struct bt_case {
+    bt_study study;
+    bt_lander* lander; ///< of bt_case_land; created with the case
+    bt_case_source source;
+    char *name, *text; ///< file or name; the text of BT_CASE_TEXT. Owned
+    int set_count;
+    char** sets; ///< [set_count] "PATH=VALUE", owned
+    bt_message* message;
+    void* user;
+};
+
+/// Copies what a caller of any version has filled in of a definition that begins with its size; the
+/// rest is zero. False: the size is missing.
+#define BT_DEF_COPY(to, from) bt_def_copy(&(to), sizeof(to), (from), (from)->size)
+
+static inline bool bt_def_copy(void* to, size_t known, const void* from, size_t size) {
+    memset(to, 0, known);
+    memcpy(to, from, size < known ? size : known);
+    return size >= sizeof size;
+}
+
+/// Diagnostics that reach the case's message function as finished lines.
+bt_diag bt_case_diag(const bt_case* opened);
+
+#endif
