@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Installs the library from a build directory into a scratch place, builds examples/ against what
+# was installed (CMake target and pkg-config), and runs them.
+#
+#   scripts/clients.sh BUILD-DIRECTORY
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=$1
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+prefix=$scratch/prefix
+
+cmake --install "$build" --prefix "$prefix" >/dev/null
+cmake -S examples -B "$scratch/examples" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_BUILD_TYPE=Release --log-level=WARNING >/dev/null
+ninja -C "$scratch/examples" --quiet
+
+# plain C users: pkg-config, shared and static; C++ reads the headers too
+libdir=$(dirname "$(find "$prefix" -name bolter.pc)")
+export PKG_CONFIG_PATH=$libdir LD_LIBRARY_PATH=$libdir/..
+# shellcheck disable=SC2046
+cc -Wall -Werror examples/drop_test.c -o "$scratch/shared" $(pkg-config --cflags --libs bolter) -lm
+# shellcheck disable=SC2046
+cc -Wall -Werror examples/drop_test.c -o "$scratch/static" $(pkg-config --cflags bolter) \
+    "$libdir/../libbolter.a" $(pkg-config --static --libs bolter | sed 's/-lbolter//')
+for header in "$prefix"/include/bolter/*.h; do
+    cc -x c -std=c11 -Wall -Wextra -pedantic -Werror -fsyntax-only -I"$prefix/include" "$header"
+done
+
+# only what the headers document is visible
+nm -D --defined-only "$libdir/../libbolter.so" | awk '{print $3}' | sort >"$scratch/visible"
+sed -n 's/.*\b\(bt_[a-z_]*\)(.*/\1/p' "$prefix"/include/bolter/*.h | sort -u >"$scratch/documented"
+undocumented=$(comm -23 "$scratch/visible" "$scratch/documented")
+[ -z "$undocumented" ] || { echo "visible but not documented: $undocumented" >&2; exit 1; }
+
+study=$prefix/share/bolter/studies/reference/study.yaml
+run() {
+    echo "== $1"
+    "$scratch/examples/$@"
+}
+run drop_test studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv
+"$scratch/static" studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv >"$scratch/a"
+"$scratch/shared" studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv >"$scratch/b"
+cmp "$scratch/a" "$scratch/b"
+echo "clients: every example built against the installed library and ran"
