@@ -60,7 +60,7 @@ BT_DECLARE_GROUP(cable_sheaves, BT_CABLE_SHEAVES_FIELDS)
     F(PLAIN, shear_ratio, _, OPTIONAL, 0.3333333333333333, 0.01, 0.6, "", "shear over axial stiffness and damping of a joint; not in the paper [assumed]") \
     F(PLAIN, compression_ratio, _, OPTIONAL, 0.01, 0, 1, "", "stiffness in compression over that in tension: a rope does not push [assumed]") \
     F(REAL, pretension, N, OPTIONAL, 24e3, 1, 1e6, "", "tension at the sheaves at rest") \
-    F(PLAIN, wheel_friction, _, OPTIONAL, 0.2, 0, 2, "", "Coulomb friction, tyre on cable") \
+    F(PLAIN, wheel_friction, _, OPTIONAL, 0.2, 0, 2, "", "Coulomb friction, tyre on cable; decides where wheels cross it in the air, not turning yet; 0 to 0.8 is likely [assumed]") \
     F(GROUP, mesh, cable_mesh, OPTIONAL, 0, 0, 0, "Eq. 11", "segment lengths") \
     F(GROUP, supports, cable_supports, OPTIONAL, 0, 0, 0, "", "wire supports under the cable") \
     F(GROUP, deck, cable_deck, OPTIONAL, 0, 0, 0, "", "cable on deck") \

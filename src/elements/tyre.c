@@ -1,5 +1,6 @@
 #include "elements/tyre.h"
 
+#include "elements/carcass.h"
 #include "elements/check.h"
 
 #include <math.h>
@@ -61,6 +62,7 @@ void bt_tyre_prepare(const bt_tyre_params* params, bt_tyre* tyre) {
         .power = p->power_exponent,
         .bottoming = p->bottoming_deflection_m > 0 ? p->bottoming_deflection_m : INFINITY,
         .rim_stiffness = p->rim_stiffness_Npm,
+        .bridging = p->bridging_length_m,
         .cornering = p->cornering_stiffness_Nprad,
         .cornering_scale = 57 * (p->pressure_Pa + 0.44 * p->rated_pressure_Pa) * w * w,
         .friction = p->friction,
@@ -429,6 +431,60 @@ static void add_pieces(const bt_tyre* tyre, const ground* g, sums* share) {
     }
 }
 
+/// Adds to a share what the carcass presses in beside it; takes away down to nothing.
+static void add_bridge(sums* share, double area, double u, double w, double g_u, double g_w) {
+    if (area <= -share->area) {
+        *share = (sums){0};
+        return;
+    }
+    if (area < 0) {
+        const double left = 1 + area / share->area;
+        *share = (sums){share->area * left, share->moment_u * left, share->moment_w * left,
+                        share->area_g_u * left, share->area_g_w * left};
+        return;
+    }
+    share->area += area;
+    share->moment_u += area * u;
+    share->moment_w += area * w;
+    share->area_g_u += area * g_u;
+    share->area_g_w += area * g_w;
+}
+
+/// The carcass over one rope: what it adds to the rope's share it takes in part from the deck's;
+/// all of it where the rope alone presses in more: it then holds the tread off the deck.
+static void bridge_circle(const bt_tyre* tyre, const ground* g, const bt_bump* b, sums* deck,
+                          sums* share) {
+    const double away = hypot(b->u_m, b->w_m), r = b->size_m, big = g->radius;
+    const double depth = big + r - away, deflection = big - g->height;
+    const double arc = big * atan2(b->u_m, -b->w_m), rho = big * r / (big + r);
+    const double level = bt_carcass_on_floor(tyre->bridging, big, deflection, arc);
+    const double bare_level = bt_carcass_on_floor(0, big, deflection, arc);
+    const bt_bridge taut = bt_carcass_over_cylinder(tyre->bridging, rho, depth, level);
+    const bt_bridge bare = bt_carcass_over_cylinder(0, rho, depth, bare_level);
+    const double added = taut.above_m2 - bare.above_m2;
+    double from_deck = fmin(taut.carried_m2 - bare.carried_m2 - added, deck->area);
+    double more = added + from_deck;
+    if (level > 0) {
+        const double alone = bt_carcass_over_cylinder(tyre->bridging, rho, depth, 0).above_m2 -
+                             bt_carcass_over_cylinder(0, rho, depth, 0).above_m2;
+        if (alone > deck->area + added) {
+            more = alone;
+            from_deck = deck->area;
+        }
+    }
+    const double n_u = -b->u_m / away, n_w = -b->w_m / away;
+    add_bridge(deck, -from_deck, 0, -g->height, 0, 1);
+    add_bridge(share, more, b->u_m + r * n_u, b->w_m + r * n_w, n_u, n_w);
+}
+
+static void add_bridges(const bt_tyre* tyre, const ground* g, sums* share) {
+    const double beside = bt_carcass_beside_patch(tyre->bridging, g->radius, g->radius - g->height);
+    add_bridge(&share[0], beside, 0, -g->height, 0, 1);
+    for (int i = 0; i < g->count; ++i)
+        if (g->bumps[i].kind == BT_BUMP_CIRCLE && share[i + 1].area > 0)
+            bridge_circle(tyre, g, &g->bumps[i], &share[0], &share[i + 1]);
+}
+
 /// Eqs. 6 and 7 of one share.
 static bt_patch patch_of(const sums* sum) {
     if (!(sum->area > 0))
@@ -443,6 +499,8 @@ void bt_tyre_envelope(const bt_tyre* tyre, double wheel_height_m, const bt_bump*
     const ground g = {radius, fmax(wheel_height_m, 0.05 * radius), bumps, n};
     sums share[BT_BUMP_MAX + 1] = {{0}}, all = {0};
     add_pieces(tyre, &g, share);
+    if (tyre->bridging > 0 && n > 0)
+        add_bridges(tyre, &g, share);
     for (int i = 0; i <= n; ++i) {
         all.area += share[i].area;
         all.moment_u += share[i].moment_u;
@@ -454,6 +512,7 @@ void bt_tyre_envelope(const bt_tyre* tyre, double wheel_height_m, const bt_bump*
     for (int i = 0; i < n; ++i)
         out->bump[i] = patch_of(&share[i + 1]);
     // A flat deck needs no inversion.
-    out->deflection_m = all.area > share[0].area ? bt_tyre_equivalent_deflection(radius, all.area)
-                                                 : fmax(radius - g.height, 0);
+    out->deflection_m = all.area > share[0].area
+                            ? bt_carcass_equivalent_deflection(tyre->bridging, radius, all.area)
+                            : fmax(radius - g.height, 0);
 }

@@ -26,6 +26,7 @@ enum { BT_TYRE_SMILEY_HORNE, BT_TYRE_POINTS, BT_TYRE_POWER };
     F(REAL, damping_mass, kg, OPTIONAL, 0, 0, 1e5, "", "m of damping_ratio: the unsprung mass of the axle; needed with it") \
     F(REAL, bottoming_deflection, m, OPTIONAL, 0, 0, 5, "", "deflection at which the tyre bottoms on its rim; 0: never") \
     F(REAL, rim_stiffness, Npm, OPTIONAL, 2e7, 0, 1e12, "", "stiffness added beyond bottoming_deflection, all tyres [assumed]") \
+    F(REAL, bridging_length, m, OPTIONAL, 0, 0, 1, "Eqs. 6-7", "lambda: over which the carcass, a string under tension on the air spring, spans the corners beside a cable; 0.05 m from footprint lengths (NASA TR R-64), 0.15 m from the tension of a cord net; 0: loose strips") \
     F(REAL, cornering_stiffness, Nprad, OPTIONAL, 0, 0, 1e9, "Eq. 8", "C_alpha, all tyres of the axle; 0: from size, pressure and deflection (NASA TR R-64, type VII)") \
     F(PLAIN, friction, _, OPTIONAL, 0.75, 0, 3, "Eq. 8", "mu: peak friction on the deck [assumed]") \
     F(PLAIN, locked_friction, _, OPTIONAL, 0.55, 0, 3, "", "friction of a locked wheel [assumed]") \
@@ -44,6 +45,7 @@ typedef struct bt_tyre {
     double scale, cz;          ///< smiley_horne: F = scale f(d / w)
     double power_scale, power; ///< power: F = power_scale d^power
     double bottoming, rim_stiffness;
+    double bridging; ///< lambda of the carcass
     double cornering, cornering_scale;
     double friction, locked_friction, peak_slip, slip_speed;
     double critical; ///< 2 zeta sqrt(m) of damping_ratio
@@ -99,6 +101,12 @@ typedef struct bt_envelope {
 /// and sum(A_i) = R^2 acos((R - d) / R) - (R - d) sqrt(2 R d - d^2) defines the equivalent
 /// deflection d, for which the load curve gives the force. Strips bounded by the deck are summed in
 /// closed form, so that a flat deck gives d = R - h exactly; those bounded by a bump are narrow.
+/// With bridging_length lambda > 0 the carcass presses in more than the disc loses: the area beside
+/// a bump of kind circle (bt_carcass_over_cylinder) is added to its share, that beside a flat patch
+/// to the deck's, and to both sides of the equation for d, so that a flat deck keeps d = R - h
+/// (carcass.h). A rope alone is pressed by a force along the line of centres that depends on its
+/// depth only: conservative.
+///
 /// Force F on the wheel = sum over the shares of F (A_k / A) g_k; each share acts at its centroid
 /// and its opposite on what bounds it.
 ///

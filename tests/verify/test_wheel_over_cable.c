@@ -188,10 +188,10 @@ static double wave_speed(const crossing* c, double tension_N) {
 /// At full height too the kink runs at c_T, once T is the tension that there is by then and the
 /// rope is a string on stiff supports: what is left of the linear theory's error is the rise of
 /// tension. The kink to the support starts at the edge of the tyre.
-static void at_full_height_a_string_s_kinks_run_at_c_t_of_the_risen_tension(void** state) {
-    (void)state;
+static void string_s_kinks_run_at_c_t(double bridging_m) {
     static crossing c;
     c = (crossing){.model = reference_model(NULL, 0)};
+    c.model.aircraft.main_gear.tyre.bridging_length_m = bridging_m;
     c.model.deck.cable.bending_stiffness_Nm2 = 1;
     c.model.deck.cable.wheel_friction = 0;
     c.model.deck.cable.supports.stiffness_Npm = 5e6;
@@ -206,6 +206,34 @@ static void at_full_height_a_string_s_kinks_run_at_c_t_of_the_risen_tension(void
     const double theory_s = (way - 0.5 * c.contact.width_m) / s.mean_c_mps;
     BT_VERIFY("wheel over cable", "string: time from half-way down to half-way up, s", s.return_s,
               theory_s, 0.03 * theory_s, "(2 (s - b) - w / 2) / c_T");
+}
+
+static void at_full_height_a_string_s_kinks_run_at_c_t_of_the_risen_tension(void** state) {
+    (void)state;
+    string_s_kinks_run_at_c_t(0);
+    string_s_kinks_run_at_c_t(0.05); // a carcass presses more, the string's answer is its own
+}
+
+/// The carcass at the reference's weight: the rope feels twice the force.
+static void a_carcass_presses_the_cable_harder(void** state) {
+    (void)state;
+    static const double bridging_m[] = {0, 0.05};
+    double peak_N[2], down_m[2];
+    for (int k = 0; k < 2; ++k) {
+        static crossing c;
+        c = (crossing){.model = reference_model(NULL, 0)};
+        c.model.aircraft.main_gear.tyre.bridging_length_m = bridging_m[k];
+        crossing_open(&c, &c.model.aircraft.main_gear, 2.445);
+        while (wheel_x(&c) < 0.1)
+            crossing_step(&c);
+        peak_N[k] = c.peak_N;
+        down_m[k] = underside(&c, 2.445);
+        crossing_close(&c);
+    }
+    BT_TABLE_ROW("wheel over cable", "carcass of 50 mm: peak force on the cable, N", peak_N[1],
+                 peak_N[0], peak_N[1] - peak_N[0], "without carcass");
+    assert_true(peak_N[1] > 1.5 * peak_N[0] && peak_N[1] < 4 * peak_N[0]);
+    BT_ASSERT_NEAR(down_m[1], down_m[0], 0, 2e-3); // on the deck with both
 }
 
 /// The reference cable: bending carries the kink ahead (its phase speed is sqrt((T + EI k^2) / mu),
@@ -294,6 +322,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_is_pressed_to_the_deck_in_the_time_of_the_wheels_profile),
         cmocka_unit_test(at_full_height_a_string_s_kinks_run_at_c_t_of_the_risen_tension),
+        cmocka_unit_test(a_carcass_presses_the_cable_harder),
         cmocka_unit_test(at_full_height_bending_and_soft_supports_are_seen),
         cmocka_unit_test(in_a_landing_main_and_nose_wheels_meet_the_cable),
     };
