@@ -90,9 +90,7 @@ static double contact_energy(const bt_cable_model* model, const bt_cable_state* 
 
 void bt_cable_audit(const bt_cable_model* model, bt_cable_state* s, bt_cable_energy* energy) {
     *energy = (bt_cable_energy){0};
-    model->kernel.joints(model, s);
-    bt_cable_ends(model, s);
-    bt_cable_supports(model, s);
+    bt_cable_forces(model, s);
     model->kernel.resultants(model, s);
     const double half = 0.5 * s->scalars->last_step_s;
     for (int i = 0; i < model->count; ++i) {

@@ -218,6 +218,11 @@ double bt_cable_stable_step(const bt_cable_model* model);
 /// bt_cable_is_finite tells afterwards.
 void bt_cable_step(const bt_cable_model* model, bt_cable_state* state, double step_s);
 
+/// The two halves of a step, for loads that depend on the cable's own forces: those of joints, ends
+/// and supports at the present positions; then the rest of the step with them and the loads.
+void bt_cable_forces(const bt_cable_model* model, bt_cable_state* state);
+void bt_cable_advance(const bt_cable_model* model, bt_cable_state* state, double step_s);
+
 /// Sets all loads to zero.
 void bt_cable_clear_loads(const bt_cable_model* model, bt_cable_state* state);
 

@@ -1,44 +1,12 @@
 #include "cable/cable_kernel.h"
 
+#include "cable/deck.h"
+
 #include <math.h>
 
 #define PASTE_(a, b) a##_##b
 #define PASTE(a, b) PASTE_(a, b)
 #define LEVEL(name) PASTE(name, BT_KERNEL_LEVEL)
-
-typedef struct deck_law {
-    double radius, stiffness, damping, friction, slip2;
-} deck_law;
-
-static inline deck_law deck_law_of(const bt_cable_model* model) {
-    const bt_cable_deck_params* p = &model->def.deck_contact;
-    const double on = model->def.deck ? 1 : 0;
-    return (deck_law){model->radius_m, on * p->stiffness_Npm2, on * model->contact_damping_Npm2ps,
-                      p->friction, p->slip_speed_mps * p->slip_speed_mps};
-}
-
-/// Spring and damper under half a segment, never pulling.
-static inline double deck_normal(deck_law law, double length, double z, double vz) {
-    const double depth = law.radius - z;
-    const double force = length * (law.stiffness * depth - law.damping * vz);
-    const double pushing = force > 0 ? force : 0;
-    return depth > 0 ? pushing : 0;
-}
-
-typedef struct deck_push {
-    double normal; ///< N, up
-    double moment; ///< N m: (normal force times distance along the axis), of both points
-} deck_push;
-
-/// The deck under the two Gauss points of a segment: a tilted one lands on its lower end.
-static inline deck_push deck_under(deck_law law, double half, double z, double tz, double vz,
-                                   double tilt_rate) {
-    const double arm = 0.57735026918962576 * half;
-    const double rise = arm * tz, rate = arm * tilt_rate;
-    const double before = deck_normal(law, half, z - rise, vz - rate);
-    const double after = deck_normal(law, half, z + rise, vz + rate);
-    return (deck_push){before + after, arm * (after - before)};
-}
 
 /// Force on the segment before each joint and torques on both, Eqs. 11-17 and shear. Force and
 /// torque act at the middle of the gap, so linear and angular momentum are kept exactly.
@@ -179,9 +147,7 @@ void LEVEL(bt_cable_advance)(const bt_cable_model* model, bt_cable_state* state,
         const deck_push deck = deck_under(law, half[i], z[i], tz[i], vz[i], tilt_rate);
         const double normal = deck.normal;
         const double sx = vx[i] - wy[i] * law.radius, sy = vy[i] + wx[i] * law.radius;
-        const double limit = law.friction * normal;
-        const double drag =
-            limit / (sqrt(sx * sx + sy * sy + law.slip2) + limit * (kick_s * per_slide[i]));
+        const double drag = deck_drag(law, normal, sx, sy, kick_s * per_slide[i]);
         const double dragx = drag * sx, dragy = drag * sy;
         /* resultants */
         const double netx = (gx[j] - gx[i]) + (fx[i] - dragx);

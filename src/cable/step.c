@@ -5,14 +5,22 @@
 
 #include <string.h>
 
-void bt_cable_step(const bt_cable_model* model, bt_cable_state* state, double step_s) {
-    const double kick = 0.5 * (state->scalars->last_step_s + step_s);
+void bt_cable_forces(const bt_cable_model* model, bt_cable_state* state) {
     model->kernel.joints(model, state);
     bt_cable_ends(model, state);
     bt_cable_supports(model, state);
+}
+
+void bt_cable_advance(const bt_cable_model* model, bt_cable_state* state, double step_s) {
+    const double kick = 0.5 * (state->scalars->last_step_s + step_s);
     model->kernel.advance(model, state, kick, step_s);
     state->scalars->last_step_s = step_s;
     state->scalars->time_s += step_s;
+}
+
+void bt_cable_step(const bt_cable_model* model, bt_cable_state* state, double step_s) {
+    bt_cable_forces(model, state);
+    bt_cable_advance(model, state, step_s);
 }
 
 void bt_cable_clear_loads(const bt_cable_model* model, bt_cable_state* state) {

@@ -1,6 +1,5 @@
 #include "landing/cable_contact.h"
 
-#include "elements/friction.h"
 #include "elements/wheel.h"
 #include "mechanics/vec.h"
 
@@ -31,6 +30,15 @@ static void push_body(bt_moving_body* body, const double force_N[3], const doubl
     bt_cross(arm, force_N, torque);
     bt_add_scaled(body->impulse_Ns, step_s, force_N);
     bt_add_scaled(body->moment_Nms, step_s, torque);
+}
+
+/// Velocity of the body's material at a world point.
+static void body_velocity(const bt_moving_body* body, const double point_m[3],
+                          double velocity_mps[3]) {
+    const double arm[3] = {point_m[0] - body->now_m[0], point_m[1] - body->now_m[1],
+                           point_m[2] - body->now_m[2]};
+    bt_cross(body->spin_radps, arm, velocity_mps);
+    bt_add_scaled(velocity_mps, 1, body->now_mps);
 }
 
 /// The piece of one segment that lies within a band across some axis: its middle, motion, length.
@@ -65,24 +73,39 @@ static bool cut_segment(const bt_cable_model* model, const bt_cable_state* cable
     return true;
 }
 
-/// Friction on a slice of one segment for one cable step: Coulomb's, but never more than stops the
-/// sliding within the step. A rope is light and a hook presses hard: without this the friction
-/// would turn the sliding over at every step.
-static void rub(const bt_cable_model* model, int segment, double mu_N, double slip_speed_mps,
-                double step_s, const double slide[3], double force[3]) {
-    bt_friction_force(mu_N, slip_speed_mps, slide, force);
-    const double most = bt_norm(slide) / (step_s * model->inverse_slide[segment]);
-    const double size = bt_norm(force);
-    if (size > most)
-        for (int i = 0; i < 3; ++i)
-            force[i] *= most / size;
+/// Notes that the body slides over the rope at a point that it presses with load_N.
+static void note_slide(bt_slides* slides, const bt_cable_model* model, bt_cable_state* cable,
+                       int segment, const double point[3], const double normal[3], double limit_N,
+                       double slip_speed_mps, bt_moving_body* body, double step_s) {
+    if (!(limit_N > 0))
+        return;
+    if (slides->count == BT_SLIDES_MAX)
+        bt_slides_resolve(slides, model, cable, step_s);
+    bt_cable_slide* slide = &slides->at[slides->count];
+    slides->body[slides->count++] = body;
+    *slide =
+        (bt_cable_slide){.segment = segment, .limit_N = limit_N, .slip_speed_mps = slip_speed_mps};
+    memcpy(slide->point_m, point, sizeof slide->point_m);
+    memcpy(slide->normal, normal, sizeof slide->normal);
+    body_velocity(body, point, slide->other_mps);
+}
+
+void bt_slides_resolve(bt_slides* slides, const bt_cable_model* model, bt_cable_state* cable,
+                       double step_s) {
+    slides->work_J += bt_cable_slides(model, cable, step_s, slides->at, slides->count);
+    for (int k = 0; k < slides->count; ++k) {
+        const double* f = slides->at[k].force_N;
+        push_body(slides->body[k], (double[]){-f[0], -f[1], -f[2]}, slides->at[k].point_m, step_s);
+    }
+    slides->count = 0;
 }
 
 /// World force of one slice: on the cable the share that the cable bounds; on the wheel its
 /// opposite, and the deck's share less what the bare deck would have given.
 static void apply_slice(bt_wheel_contact* contact, const bt_cable_model* model,
                         bt_cable_state* cable, int segment, const slice* piece,
-                        const bt_wheel_plane* plane, bt_moving_body* wheel, double step_s) {
+                        const bt_wheel_plane* plane, bt_moving_body* wheel, bt_slides* slides,
+                        double step_s) {
     const double radius_m = model->radius_m;
     const bt_tyre* tyre = contact->tyre;
     const double offset[3] = {piece->position_m[0] - wheel->now_m[0],
@@ -109,28 +132,17 @@ static void apply_slice(bt_wheel_contact* contact, const bt_cable_model* model,
 
     // normal force on the rope, against the tyre's inward direction there
     const double gu = envelope.bump[0].g_u, gw = envelope.bump[0].g_w, g = hypot(gu, gw);
-    double inward[3], point[3], force[3], slide[3], friction[3];
+    double inward[3], point[3], force[3];
     for (int i = 0; i < 3; ++i) {
         inward[i] = (gu * plane->heading[i] + gw * plane->up[i]) / g;
         point[i] = piece->position_m[i] + radius_m * inward[i];
         force[i] = -on_rope * g * inward[i];
     }
-
-    // friction: the tread moves with the wheel, the rope slides over it
-    const double arm[3] = {point[0] - wheel->now_m[0], point[1] - wheel->now_m[1],
-                           point[2] - wheel->now_m[2]};
-    bt_cross(wheel->spin_radps, arm, slide);
-    for (int i = 0; i < 3; ++i)
-        slide[i] = piece->velocity_mps[i] - wheel->now_mps[i] - slide[i];
-    bt_add_scaled(slide, -bt_dot(slide, inward), inward);
-    rub(model, segment, contact->friction * on_rope, contact->slip_speed_mps, step_s, slide,
-        friction);
-
-    for (int i = 0; i < 3; ++i)
-        force[i] += friction[i];
     bt_cable_add_load(cable, segment, force, point);
     const double reaction[3] = {-force[0], -force[1], -force[2]};
     push_body(wheel, reaction, point, step_s);
+    note_slide(slides, model, cable, segment, point, inward, contact->friction * on_rope,
+               contact->slip_speed_mps, wheel, step_s);
     contact->normal_N += on_rope;
 
     const double lift[3] = {0, 0, deck_change};
@@ -138,8 +150,9 @@ static void apply_slice(bt_wheel_contact* contact, const bt_cable_model* model,
     push_body(wheel, lift, under, step_s);
 }
 
-void bt_wheel_contact_apply(bt_wheel_contact* contact, const bt_cable_model* model,
-                            bt_cable_state* cable, bt_moving_body* wheel, double step_s) {
+void bt_wheel_contact_press(bt_wheel_contact* contact, const bt_cable_model* model,
+                            bt_cable_state* cable, bt_moving_body* wheel, bt_slides* slides,
+                            double step_s) {
     contact->normal_N = 0;
     const double axle[3] = {wheel->now_rotation[1], wheel->now_rotation[4], wheel->now_rotation[7]};
     bt_wheel_plane plane;
@@ -155,7 +168,7 @@ void bt_wheel_contact_apply(bt_wheel_contact* contact, const bt_cable_model* mod
              i += direction) {
             if (!cut_segment(model, cable, i, wheel->now_m, axle, half_width, &piece))
                 break;
-            apply_slice(contact, model, cable, i, &piece, &plane, wheel, step_s);
+            apply_slice(contact, model, cable, i, &piece, &plane, wheel, slides, step_s);
         }
 }
 
@@ -182,7 +195,7 @@ static void world_to_head(const bt_hook_contact* contact, const bt_moving_body* 
 /// Contact of one slice of rope with the outline.
 static void touch_slice(bt_hook_contact* contact, const bt_cable_model* model,
                         bt_cable_state* cable, int segment, const slice* piece,
-                        bt_moving_body* hook, double step_s) {
+                        bt_moving_body* hook, bt_slides* slides, double step_s) {
     const double radius_m = model->radius_m;
     double head[2];
     world_to_head(contact, hook, piece->position_m, head);
@@ -191,35 +204,35 @@ static void touch_slice(bt_hook_contact* contact, const bt_cable_model* model,
     if (!(depth > 0))
         return;
 
-    // the normal in the world, the touching point, and how the rope moves over it
-    double normal[3], point[3], arm[3], slide[3];
+    // the normal in the world, the touching point, and how fast the rope leaves it
+    double normal[3], point[3], leaving_mps[3];
     for (int i = 0; i < 3; ++i) {
         normal[i] = near.normal[0] * hook->now_rotation[3 * i] +
                     near.normal[1] * hook->now_rotation[3 * i + 2];
         point[i] = piece->position_m[i] - radius_m * normal[i];
-        arm[i] = point[i] - hook->now_m[i];
     }
-    bt_cross(hook->spin_radps, arm, slide);
+    body_velocity(hook, point, leaving_mps);
     for (int i = 0; i < 3; ++i)
-        slide[i] = piece->velocity_mps[i] - hook->now_mps[i] - slide[i];
-    const double leaving = bt_dot(slide, normal);
+        leaving_mps[i] = piece->velocity_mps[i] - leaving_mps[i];
+    const double leaving = bt_dot(leaving_mps, normal);
     const double pressure = contact->stiffness * depth - contact->damping * leaving;
     if (!(pressure > 0))
         return;
 
-    double force[3];
     const double load = pressure * piece->length_m;
-    bt_add_scaled(slide, -leaving, normal);
-    rub(model, segment, contact->friction * load, contact->slip_speed_mps, step_s, slide, force);
-    bt_add_scaled(force, load, normal);
+    double force[3], reaction[3];
+    for (int i = 0; i < 3; ++i)
+        reaction[i] = -(force[i] = load * normal[i]);
     bt_cable_add_load(cable, segment, force, point);
-    const double reaction[3] = {-force[0], -force[1], -force[2]};
     push_body(hook, reaction, point, step_s);
+    note_slide(slides, model, cable, segment, point, normal, contact->friction * load,
+               contact->slip_speed_mps, hook, step_s);
     contact->zone_force_N[near.zone] += load;
 }
 
-void bt_hook_contact_apply(bt_hook_contact* contact, const bt_cable_model* model,
-                           bt_cable_state* cable, bt_moving_body* hook, double step_s) {
+void bt_hook_contact_press(bt_hook_contact* contact, const bt_cable_model* model,
+                           bt_cable_state* cable, bt_moving_body* hook, bt_slides* slides,
+                           double step_s) {
     memset(contact->zone_force_N, 0, sizeof contact->zone_force_N);
     double centre[3];
     head_to_world(contact, hook, 0, 0, centre);
@@ -238,7 +251,7 @@ void bt_hook_contact_apply(bt_hook_contact* contact, const bt_cable_model* model
              i += direction) {
             if (!cut_segment(model, cable, i, centre, axis, contact->profile->half_width, &piece))
                 break;
-            touch_slice(contact, model, cable, i, &piece, hook, step_s);
+            touch_slice(contact, model, cable, i, &piece, hook, slides, step_s);
         }
 }
 

@@ -5,8 +5,11 @@
 #define BT_LANDING_CABLE_CONTACT_H
 
 #include "cable/cable.h"
+#include "cable/slide.h"
 #include "elements/tyre.h"
 #include "landing/profile.h"
+
+enum { BT_SLIDES_MAX = 256 }; ///< more in one step are resolved in groups of this many
 
 /// A rigid body as the cable meets it: its motion from the start of the airframe step, and the
 /// impulses that the cable has given it since.
@@ -25,6 +28,18 @@ typedef struct bt_moving_body {
 /// order; the step is short).
 void bt_moving_body_to(bt_moving_body* body, double after_s);
 
+/// Where wheels and hook slide over the cable in one cable step.
+typedef struct bt_slides {
+    int count;
+    double work_J; ///< of all friction so far, J: never rises
+    bt_cable_slide at[BT_SLIDES_MAX];
+    bt_moving_body* body[BT_SLIDES_MAX];
+} bt_slides;
+
+/// Finds the friction at all places noted so far, gives it to cable and bodies, and forgets them.
+void bt_slides_resolve(bt_slides* slides, const bt_cable_model* model, bt_cable_state* cable,
+                       double step_s);
+
 /// A tyre over the cable  [Peng2023 Eqs. 6, 7]. The tyre's width is cut into slices, one per
 /// segment of cable under it; each slice is the strip model in the plane of the wheel with the
 /// cable's cross-section there as a bump on the deck. The force of a slice is its share of the
@@ -39,10 +54,12 @@ typedef struct bt_wheel_contact {
     int hint;        ///< last segment found under the wheel
 } bt_wheel_contact;
 
-/// Adds the loads of one cable step (duration step_s) to the cable and their opposite to the
-/// wheel, together with what the deck no longer carries because the cable does.
-void bt_wheel_contact_apply(bt_wheel_contact* contact, const bt_cable_model* model,
-                            bt_cable_state* cable, bt_moving_body* wheel, double step_s);
+/// Adds the normal loads of one cable step (duration step_s) to the cable and their opposite to the
+/// wheel, together with what the deck no longer carries because the cable does; notes where it
+/// slides. bt_cable_forces comes before, bt_slides_resolve after all bodies have pressed.
+void bt_wheel_contact_press(bt_wheel_contact* contact, const bt_cable_model* model,
+                            bt_cable_state* cable, bt_moving_body* wheel, bt_slides* slides,
+                            double step_s);
 
 /// The hook's head on the cable. Penalty normal force with damping, Coulomb friction, per metre of
 /// cable within the head's width.
@@ -57,8 +74,9 @@ typedef struct bt_hook_contact {
     int hint;
 } bt_hook_contact;
 
-void bt_hook_contact_apply(bt_hook_contact* contact, const bt_cable_model* model,
-                           bt_cable_state* cable, bt_moving_body* hook, double step_s);
+void bt_hook_contact_press(bt_hook_contact* contact, const bt_cable_model* model,
+                           bt_cable_state* cable, bt_moving_body* hook, bt_slides* slides,
+                           double step_s);
 
 /// Clearance between the cable's surface and the part at the present body position, m: at least
 /// this far apart (negative: they overlap). INFINITY beyond the cable's ends.

@@ -39,6 +39,7 @@ typedef struct run {
     bt_moving_body wheel[BT_LEG_COUNT], hook;
     bt_wheel_contact wheel_contact[BT_LEG_COUNT];
     bt_hook_contact hook_contact;
+    bt_slides slides;
     double clearance_m[BT_LEG_COUNT + 1]; ///< of wheels and hook from the cable; last: the hook
     double tension_N[BT_CABLE_SEGMENTS_MAX];
     bool awake;     ///< the cable has left its equilibrium
@@ -213,8 +214,7 @@ static void start(run* r) {
 
     bt_cable_state_copy(&l->cable_model, &l->cable, &l->resting);
     prepare_contacts(r);
-    bt_tracker_start(&r->tracker, r->result, l->cable_model.radius_m,
-                     r->params->aircraft.hook.cable_contact.friction);
+    bt_tracker_start(&r->tracker, r->result);
 }
 
 /// The longest step at which the oil damping of the unsprung masses is stable: 0.8 of
@@ -284,20 +284,23 @@ static void step_cable(run* r, double step_s) {
         if (r->loaded)
             bt_cable_clear_loads(&l->cable_model, &l->cable);
         r->loaded = any;
+        bt_cable_forces(&l->cable_model, &l->cable);
         for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
             if (near[leg]) {
                 bt_moving_body_to(&r->wheel[leg], k * sub_s);
-                bt_wheel_contact_apply(&r->wheel_contact[leg], &l->cable_model, &l->cable,
-                                       &r->wheel[leg], sub_s);
+                bt_wheel_contact_press(&r->wheel_contact[leg], &l->cable_model, &l->cable,
+                                       &r->wheel[leg], &r->slides, sub_s);
             }
         if (near[BT_LEG_COUNT]) {
             bt_moving_body_to(&r->hook, k * sub_s);
-            bt_hook_contact_apply(&r->hook_contact, &l->cable_model, &l->cable, &r->hook, sub_s);
+            bt_hook_contact_press(&r->hook_contact, &l->cable_model, &l->cable, &r->hook,
+                                  &r->slides, sub_s);
             bt_tracker_cable(&r->tracker, r->result, l->state.time_s + k * sub_s,
                              r->hook_contact.zone_force_N, r->hook_contact.lip_m,
                              r->hook_contact.cable_m);
         }
-        bt_cable_step(&l->cable_model, &l->cable, sub_s);
+        bt_slides_resolve(&r->slides, &l->cable_model, &l->cable, sub_s);
+        bt_cable_advance(&l->cable_model, &l->cable, sub_s);
         ++r->result->cable_steps;
     }
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg)

@@ -40,8 +40,8 @@ typedef struct bt_landing_result {
     bt_outcome outcome;
     bt_mode mode;
     bool retained;   ///< the throat still held the cable when the run ended
-    double margin_m; ///< cable centre above lip centre when they meet, less the rise friction asks
-                     ///< for; positive when caught; NAN if failed
+    double margin_m; ///< cable centre above lip centre when they meet, positive when caught; NAN if
+                     ///< failed
     double throat_force_peak_N;
     double time_of_contact_s; ///< first hook-cable contact after first deck contact; NAN if none
     int bounce_count;

@@ -16,14 +16,9 @@ const char* bt_mode_name(bt_mode mode) {
     return names[mode];
 }
 
-void bt_tracker_start(bt_tracker* tracker, bt_landing_result* result, double cable_radius_m,
-                      double friction) {
+void bt_tracker_start(bt_tracker* tracker, bt_landing_result* result) {
     *tracker =
-        (bt_tracker){.margin_m = NAN,
-                     .last_gap_m = NAN,
-                     .friction_rise_m = cable_radius_m * friction / sqrt(1 + friction * friction),
-                     .first_contact_s = NAN,
-                     .catch_s = NAN};
+        (bt_tracker){.margin_m = NAN, .last_gap_m = NAN, .first_contact_s = NAN, .catch_s = NAN};
     *result = (bt_landing_result){.margin_m = NAN, .time_of_contact_s = NAN};
 }
 
@@ -80,7 +75,7 @@ void bt_tracker_cable(bt_tracker* tracker, bt_landing_result* result, double tim
     const double gap = cable_m[0] - lip_m[0], rise = cable_m[2] - lip_m[2];
     if (!tracker->met && (point || gap <= 0)) {
         tracker->met = true;
-        tracker->margin_m = rise_at_passing(tracker, gap, rise) - tracker->friction_rise_m;
+        tracker->margin_m = rise_at_passing(tracker, gap, rise);
         tracker->clear_of_deck_when_met = !tracker->touched;
     }
     tracker->last_gap_m = gap;

@@ -18,7 +18,6 @@ typedef struct bt_tracker {
     bool met;
     double margin_m;
     double last_gap_m, last_rise_m; ///< cable ahead of and above the lip, at the latest step
-    double friction_rise_m;         ///< see bt_tracker_start
     bool clear_of_deck_when_met;    ///< no deck contact before the meeting
     // contacts with the cable
     bool zone_touched[BT_ZONE_COUNT];
@@ -27,20 +26,17 @@ typedef struct bt_tracker {
     double last_cable_force_N; ///< throat and arm together, at the latest step
 } bt_tracker;
 
-/// A rope of radius r is scooped when its centre lies above the lip's by more than
-/// r sin(atan mu): the contact normal must rise more steeply than friction holds down. That height
-/// is taken off the margin, so that zero is where the label changes.
-void bt_tracker_start(bt_tracker* tracker, bt_landing_result* result, double cable_radius_m,
-                      double friction);
+void bt_tracker_start(bt_tracker* tracker, bt_landing_result* result);
 
 /// After an airframe step: the shoe's place, clearance and deck force.
 void bt_tracker_deck(bt_tracker* tracker, bt_landing_result* result, double shoe_x_m,
                      double height_m, double force_N);
 
 /// After a cable step: normal forces on the zones, and lip and cable centres in the hook's plane.
-/// The cable's height above the lip when the lip passes under or over its centre, less the rise
-/// that friction asks for, is the margin. If point or shoe touch before, the rest of the way is
-/// extrapolated: after a touch the rope is pushed clear on one side or the other.
+/// The cable's height above the lip when the lip passes under or over its centre is the margin: a
+/// rope rolls on the lip, so that friction does not decide which way it goes. If point or shoe
+/// touch before, the rest of the way is extrapolated: after a touch the rope is pushed clear on one
+/// side or the other.
 void bt_tracker_cable(bt_tracker* tracker, bt_landing_result* result, double time_s,
                       const double zone_force_N[BT_ZONE_COUNT], const double lip_m[3],
                       const double cable_m[3]);

@@ -93,6 +93,19 @@ static bt_wheel_contact wheel_contact(const bt_tyre* tyre) {
 
 static const double step_s = 1e-5;
 
+/// What a wheel, or the hook, gives the rope at rest where it is: pressure and friction.
+static void press_wheel(bt_wheel_contact* contact, rope* r, bt_moving_body* wheel) {
+    bt_slides slides = {.count = 0};
+    bt_wheel_contact_press(contact, &r->model, &r->state, wheel, &slides, step_s);
+    bt_slides_resolve(&slides, &r->model, &r->state, step_s);
+}
+
+static void press_hook(bt_hook_contact* contact, rope* r, bt_moving_body* hook) {
+    bt_slides slides = {.count = 0};
+    bt_hook_contact_press(contact, &r->model, &r->state, hook, &slides, step_s);
+    bt_slides_resolve(&slides, &r->model, &r->state, step_s);
+}
+
 static void a_wheel_and_the_cable_push_equally_and_oppositely(void** state) {
     (void)state;
     const bt_tyre tyre = main_tyre();
@@ -107,7 +120,7 @@ static void a_wheel_and_the_cable_push_equally_and_oppositely(void** state) {
         wheel.velocity_mps[2] = -3;
         wheel.spin_radps[1] = 60;
         turn(&wheel, camber[k], yaw[k]);
-        bt_wheel_contact_apply(&contact, &r.model, &r.state, &wheel, step_s);
+        press_wheel(&contact, &r, &wheel);
         assert_true(contact.normal_N > 0);
         assert_opposite(&r, &wheel, step_s);
         rope_close(&r);
@@ -125,7 +138,7 @@ static void deck_and_cable_together_carry_the_load_of_the_curve(void** state) {
         bt_wheel_contact contact = wheel_contact(&tyre);
         contact.friction = 0;
         bt_moving_body wheel = body_at(0, 0.2, height);
-        bt_wheel_contact_apply(&contact, &r.model, &r.state, &wheel, step_s);
+        press_wheel(&contact, &r, &wheel);
 
         const bt_bump bump = {
             .kind = BT_BUMP_CIRCLE, .u_m = 0, .w_m = 0.01825 - height, .size_m = r.model.radius_m};
@@ -152,7 +165,7 @@ static void a_bump_ahead_of_the_axle_holds_the_wheel_back(void** state) {
         bt_wheel_contact contact = wheel_contact(&tyre);
         contact.friction = 0;
         bt_moving_body wheel = body_at(-0.15 * side, 0, tyre.radius);
-        bt_wheel_contact_apply(&contact, &r.model, &r.state, &wheel, step_s);
+        press_wheel(&contact, &r, &wheel);
         assert_true(side * wheel.impulse_Ns[0] < 0);
         assert_true(wheel.impulse_Ns[2] > 0);
         rope_close(&r);
@@ -172,7 +185,7 @@ static void the_wheels_force_is_the_same_wherever_the_joints_lie(void** state) {
             bt_wheel_contact contact = wheel_contact(&tyre);
             bt_moving_body wheel = body_at(-0.1, y, tyre.radius - 0.01);
             bt_cable_clear_loads(&r.model, &r.state);
-            bt_wheel_contact_apply(&contact, &r.model, &r.state, &wheel, step_s);
+            press_wheel(&contact, &r, &wheel);
             if (first == 0)
                 first = contact.normal_N;
             BT_ASSERT_NEAR(contact.normal_N, first, 1e-12, 0);
@@ -248,7 +261,7 @@ static void the_hook_and_the_cable_push_equally_and_oppositely(void** state) {
         hook.velocity_mps[2] = 1;
         hook.spin_radps[1] = -3;
         bt_moving_body_to(&hook, 0);
-        bt_hook_contact_apply(&contact, &r.model, &r.state, &hook, step_s);
+        press_hook(&contact, &r, &hook);
         assert_opposite(&r, &hook, step_s);
         rope_close(&r);
     }
@@ -266,7 +279,7 @@ static void stiffness_times_depth_times_width(void** state) {
             contact.friction = contact.damping = 0;
             bt_moving_body hook = hook_behind(&contact, 2e-3, y, 0.075, 0);
             bt_cable_clear_loads(&r.model, &r.state);
-            bt_hook_contact_apply(&contact, &r.model, &r.state, &hook, step_s);
+            press_hook(&contact, &r, &hook);
             const double want = 5e8 * 2e-3 * 2 * profile.half_width;
             BT_ASSERT_NEAR(contact.zone_force_N[BT_ZONE_POINT], want, 1e-11, 0);
             BT_ASSERT_NEAR(hook.impulse_Ns[0] / step_s, -want, 1e-11, 0);
@@ -289,7 +302,7 @@ static void friction_is_its_share_of_the_normal_force_and_against_the_sliding(vo
         bt_moving_body hook = hook_behind(&contact, 2e-3, 0, 0.075, 0);
         hook.velocity_mps[2] = 5.0 * side;
         bt_moving_body_to(&hook, 0);
-        bt_hook_contact_apply(&contact, &r.model, &r.state, &hook, step_s);
+        press_hook(&contact, &r, &hook);
         const double normal = contact.zone_force_N[BT_ZONE_POINT];
         // at 25 times the slip speed the regularised friction is within 0.1 % of Coulomb's
         BT_ASSERT_NEAR(hook.impulse_Ns[2] / step_s, -0.2 * normal * side, 1e-3, 0);
@@ -306,11 +319,11 @@ static void damping_never_pulls(void** state) {
     bt_moving_body hook = hook_behind(&contact, 2e-3, 0, 0.075, 0);
     hook.velocity_mps[0] = -100; // tears away
     bt_moving_body_to(&hook, 0);
-    bt_hook_contact_apply(&contact, &r.model, &r.state, &hook, step_s);
+    press_hook(&contact, &r, &hook);
     assert_true(bt_norm(hook.impulse_Ns) == 0);
     hook.velocity_mps[0] = 100;
     bt_moving_body_to(&hook, 0);
-    bt_hook_contact_apply(&contact, &r.model, &r.state, &hook, step_s);
+    press_hook(&contact, &r, &hook);
     BT_ASSERT_NEAR(contact.zone_force_N[BT_ZONE_POINT],
                    (5e8 * 2e-3 + 2e4 * 100) * 2 * profile.half_width, 1e-10, 0);
     rope_close(&r);
@@ -332,7 +345,7 @@ static void moving_sideways_over_joints_changes_the_force_gradually(void** state
         contact.damping = 0;
         bt_moving_body hook = hook_behind(&contact, 3e-3, -0.05 + k * dy, 0.076, 0.03);
         bt_cable_clear_loads(&r.model, &r.state);
-        bt_hook_contact_apply(&contact, &r.model, &r.state, &hook, step_s);
+        press_hook(&contact, &r, &hook);
         for (int i = 0; k > 0 && i < 3; ++i)
             largest = fmax(largest, fabs(hook.impulse_Ns[i] - before[i]) / step_s);
         memcpy(before, hook.impulse_Ns, sizeof before);
@@ -365,7 +378,7 @@ static void the_zone_is_the_part_that_touches(void** state) {
         lay(&r, 80, 4, 0.5);
         bt_hook_contact contact = hook_contact(&p);
         bt_moving_body hook = hook_at(&contact, cases[k].u, cases[k].w, 0, 0.1, 0.5, 0);
-        bt_hook_contact_apply(&contact, &r.model, &r.state, &hook, step_s);
+        press_hook(&contact, &r, &hook);
         for (int zone = 0; zone < BT_ZONE_COUNT; ++zone)
             if (zone == (int)cases[k].zone)
                 BT_ASSERT_NEAR(contact.zone_force_N[zone], 5e8 * 2e-3 * 2 * p.half_width, 1e-9, 0);
@@ -390,13 +403,13 @@ static void nothing_pushes_while_clearance_is_positive(void** state) {
         if (gap < 0.1)
             BT_ASSERT_NEAR(clearance, gap, 0, 1e-12);
         bt_cable_clear_loads(&r.model, &r.state);
-        bt_hook_contact_apply(&contact, &r.model, &r.state, &hook, step_s);
+        press_hook(&contact, &r, &hook);
         assert_int_equal(bt_norm(hook.impulse_Ns) > 0, clearance < 0);
 
         bt_wheel_contact tread = wheel_contact(&tyre);
         bt_moving_body wheel = body_at(0, 0, 0.3 + 0.01825 + tyre.radius + gap);
         BT_ASSERT_NEAR(bt_wheel_clearance(&tread, &r.model, &r.state, &wheel), gap, 0, 1e-12);
-        bt_wheel_contact_apply(&tread, &r.model, &r.state, &wheel, step_s);
+        press_wheel(&tread, &r, &wheel);
         // in the last micrometre the narrow strips see nothing yet
         if (fabs(gap) > 1e-6)
             assert_int_equal(bt_norm(wheel.impulse_Ns) > 0, gap < 0);

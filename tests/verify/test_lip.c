@@ -1,6 +1,6 @@
-/// The lip criterion, quasi-statically: a piece of rope that is held back by a steady force is
-/// pushed slowly by the hook's head. It is scooped when its centre lies above the lip's, by more
-/// than friction can hold; goes under when it lies as much below; and stays between.
+/// The lip criterion: a piece of rope that is held back by a steady force is pushed slowly by the
+/// hook's head. It is scooped when its centre lies above the lip's and goes under when it lies
+/// below, with or without friction: it rolls. And the impact of a rope that slides on the lip.
 #include "reference.h"
 
 #include "landing/cable_contact.h"
@@ -10,7 +10,7 @@
 
 static const double level = 52 * 3.14159265358979323846 / 180;
 
-static const double slip_mps = 2e-5, step_s = 1e-5, bisection_m = 2e-5;
+static const double radius_m = 0.01825, slip_mps = 1e-3, step_s = 1e-5;
 enum { steps = 200000 };
 
 typedef enum where { UNDER = -1, HELD = 0, SCOOPED = 1 } where;
@@ -27,16 +27,38 @@ static bt_moving_body hook_over(const bt_hook_contact* contact, double x, double
     return hook;
 }
 
-/// A piece of rope does not turn here: the rest of the rope is long and holds it.
-static void hold_attitude(rope* r) {
+/// A piece of rope does not tilt here, the rest of the rope is long and holds it; but it spins.
+static void hold_axis(rope* r) {
     for (int i = 0; i < r->model.count; ++i) {
-        r->state.hx[i] = r->state.hy[i] = r->state.hz[i] = 0;
-        r->state.wx[i] = r->state.wy[i] = r->state.wz[i] = 0;
-        r->state.e0[i] = 1;
-        r->state.e1[i] = r->state.e2[i] = r->state.e3[i] = 0;
-        r->state.tx[i] = r->state.tz[i] = 0;
-        r->state.ty[i] = 1;
+        bt_cable_state* s = &r->state;
+        s->hx[i] = s->hz[i] = s->wx[i] = s->wz[i] = 0;
+        const double size = hypot(s->e0[i], s->e2[i]);
+        s->e0[i] /= size;
+        s->e2[i] /= size;
+        s->e1[i] = s->e3[i] = s->tx[i] = s->tz[i] = 0;
+        s->ty[i] = 1;
     }
+}
+
+/// One step of rope and hook.
+static void step(rope* r, bt_hook_contact* contact, bt_moving_body* hook) {
+    static bt_slides slides;
+    bt_cable_forces(&r->model, &r->state);
+    bt_hook_contact_press(contact, &r->model, &r->state, hook, &slides, step_s);
+    bt_slides_resolve(&slides, &r->model, &r->state, step_s);
+    bt_cable_advance(&r->model, &r->state, step_s);
+    hold_axis(r);
+}
+
+/// Two pieces of rope, 0.1 m together, around y = 0.
+static void lay(rope* r, double x_m, double z_m) {
+    bt_cable_def def = rope_def(2, 0.1);
+    for (int k = 0; k < 2; ++k) {
+        def.end[k].anchor_m[0] = x_m;
+        def.end[k].anchor_m[1] = k ? 0.05 : -0.05;
+        def.end[k].anchor_m[2] = z_m;
+    }
+    rope_open(r, &def, 0.1);
 }
 
 /// Pushes a rope whose centre is cable_m above the deck with a hook whose lowest point is hook_m
@@ -46,12 +68,8 @@ static where push(const bt_hook_profile_params* head, double friction, double ho
     static const double hold_N = 2, drag = 2, speed = 0.02;
     bt_profile profile;
     assert_int_equal(bt_profile_build(head, 2.352, 0.01825, "head", &profile, NULL), BT_OK);
-    bt_cable_def def = rope_def(2, 0.1);
-    def.end[0].anchor_m[1] = -0.05;
-    def.end[1].anchor_m[1] = 0.05;
-    def.end[0].anchor_m[2] = def.end[1].anchor_m[2] = cable_m;
     rope r;
-    rope_open(&r, &def, 0.1);
+    lay(&r, 0, cable_m);
     bt_hook_contact contact = {.profile = &profile,
                                .shoe_m = {-1.059, 0, 0},
                                .stiffness = 5e8,
@@ -64,7 +82,7 @@ static where push(const bt_hook_profile_params* head, double friction, double ho
     double head_point[3], local[3] = {contact.shoe_m[0] + profile.lip[0], 0, profile.lip[1]};
     bt_rotate(hook.rotation, local, head_point);
     const double rise = hook.position_m[2] + head_point[2] - cable_m;
-    const double reach = profile.lip_radius + 0.01825;
+    const double reach = profile.lip_radius + radius_m;
     const double behind = fabs(rise) < reach ? sqrt(reach * reach - rise * rise) : 0;
     hook = hook_over(&contact, -behind - 1e-5 - (hook.position_m[0] + head_point[0]), hook_m);
     hook.velocity_mps[0] = speed;
@@ -79,9 +97,7 @@ static where push(const bt_hook_profile_params* head, double friction, double ho
                                      -0.5 * drag * r.state.vz[i]};
             bt_cable_add_load(&r.state, i, force, at);
         }
-        bt_hook_contact_apply(&contact, &r.model, &r.state, &hook, step_s);
-        bt_cable_step(&r.model, &r.state, step_s);
-        hold_attitude(&r);
+        step(&r, &contact, &hook);
         const double above = r.state.z[0] - contact.lip_m[2];
         end = above > 0.9 * reach ? SCOOPED : above < -0.9 * reach ? UNDER : HELD;
     }
@@ -100,55 +116,75 @@ static bt_hook_profile_params head_with_lip(double lip_height_m) {
     return head;
 }
 
-static void without_friction_it_is_scooped_when_the_lip_lies_below_its_centre(void** state) {
+/// Half a millimetre above or below is enough, whatever the friction.
+static void it_is_scooped_when_the_lip_lies_below_its_centre(void** state) {
     (void)state;
-    static const double lips[] = {0.024, 0.030, 0.034}, cables[] = {0.0185, 0.050, 0.075};
+    static const double lips[] = {0.024, 0.030, 0.034}, cables[] = {0.0185, 0.050, 0.075},
+                        frictions[] = {0, 0.1, 0.2, 0.4};
     for (int l = 0; l < 3; ++l)
         for (int c = 0; c < 3; ++c)
-            for (int side = -1; side <= 1; side += 2) {
-                const bt_hook_profile_params head = head_with_lip(lips[l]);
-                // hook bottom such that y_h + l is half a millimetre below or above y_c
-                const double hook_m = cables[c] - lips[l] - side * 5e-4;
-                assert_int_equal(push(&head, 0, hook_m, cables[c]), side > 0 ? SCOOPED : UNDER);
-            }
+            for (int f = 0; f < 4; ++f)
+                for (int side = -1; side <= 1; side += 2) {
+                    const bt_hook_profile_params head = head_with_lip(lips[l]);
+                    const double hook_m = cables[c] - lips[l] - side * 5e-4;
+                    assert_int_equal(push(&head, frictions[f], hook_m, cables[c]),
+                                     side > 0 ? SCOOPED : UNDER);
+                }
 }
 
-/// The height of rope over lip at which friction just holds, by bisection to 0.02 mm.
-static double boundary(const bt_hook_profile_params* head, double friction, where side) {
-    double held = 0, gone = 0.02;
-    while (gone - held > bisection_m) {
-        const double rise = 0.5 * (held + gone);
-        const where end =
-            push(head, friction, 0.075 - head->lip_height_m - (int)side * rise, 0.075);
-        if (end == HELD)
-            held = rise;
-        else {
-            assert_int_equal(end, side);
-            gone = rise;
-        }
-    }
-    return 0.5 * (held + gone);
-}
+/* ---- from sliding to rolling ---- */
 
-/// y_h + l < y_c - (r + r_lip) sin(atan mu): the normal leans back by less than the friction angle.
-static void with_friction_the_criterion_moves_by_the_friction_angle(void** state) {
+/// A free rope thrown at the lip, half along it: friction stops the slip within the impact and
+/// makes it roll. A solid cylinder keeps 1 / (1 + I / m r^2) = 2/3 of its speed along the surface,
+/// and its spin is that speed over its radius; with a friction that the impact does not develop
+/// fully it keeps more, by mu times the change of speed across.
+static void thrown_along_the_lip_it_keeps_two_thirds(void** state) {
     (void)state;
-    static const double frictions[] = {0.1, 0.2, 0.3};
+    static const double frictions[] = {0, 0.02, 0.3, 1}, along = 0.3, across = 0.5;
+    bt_profile profile;
     const bt_hook_profile_params head = head_with_lip(0.030);
-    for (int k = 0; k < 3; ++k) {
-        const double want = (0.01825 + head.lip_radius_m) * sin(atan(frictions[k]));
-        char text[64];
-        snprintf(text, sizeof text, "rise of rope over lip that is scooped, mu %.1f, m",
-                 frictions[k]);
-        // regularised friction creeps by v = slip cos(phi) sqrt(h / 2e), phi the friction angle and
-        // e what is left to the boundary h; in the time given it crosses
-        // e = (1.5 slip time cos(phi))^(2/3) (h / 2)^(1/3); and bisection stops somewhere
-        const double creep =
-            pow(1.5 * slip_mps * steps * step_s, 2.0 / 3) * cbrt(0.5 * want) + bisection_m;
-        BT_VERIFY("lip criterion", text, boundary(&head, frictions[k], SCOOPED), want, creep,
-                  "friction angle");
-        BT_VERIFY("lip criterion", "the same downward: rope under lip that goes under, m",
-                  boundary(&head, frictions[k], UNDER), want, creep, "friction angle");
+    assert_int_equal(bt_profile_build(&head, 2.352, radius_m, "head", &profile, NULL), BT_OK);
+    for (int f = 0; f < 4; ++f) {
+        bt_hook_contact contact = {.profile = &profile,
+                                   .shoe_m = {-1.059, 0, 0},
+                                   .stiffness = 5e8,
+                                   .damping = 2e4,
+                                   .friction = frictions[f],
+                                   .slip_speed_mps = slip_mps,
+                                   .hint = -1};
+        bt_moving_body hook = hook_over(&contact, 0, 0.3);
+        double lip[3];
+        const double local[3] = {contact.shoe_m[0] + profile.lip[0], 0, profile.lip[1]};
+        bt_rotate(hook.rotation, local, lip);
+        bt_add_scaled(lip, 1, hook.position_m);
+        const double reach = profile.lip_radius + radius_m;
+        rope r;
+        lay(&r, lip[0] + reach + 1e-5, lip[2]);
+        for (int i = 0; i < 2; ++i) {
+            r.state.vx[i] = -across;
+            r.state.vz[i] = along;
+        }
+        bool touched = false;
+        do {
+            bt_cable_clear_loads(&r.model, &r.state);
+            step(&r, &contact, &hook);
+            touched |= contact.zone_force_N[BT_ZONE_POINT] > 0;
+        } while (!touched || contact.zone_force_N[BT_ZONE_POINT] > 0);
+        // in polar coordinates about the lip's centre, at the radius of the touch
+        const double x = r.state.x[0] - lip[0], z = r.state.z[0] - lip[2], apart = hypot(x, z);
+        const double left = (x * r.state.vz[0] - z * r.state.vx[0]) / reach;
+        const double bounced = (x * r.state.vx[0] + z * r.state.vz[0]) / apart;
+        const double coulomb = along - frictions[f] * (across + bounced);
+        char text[80];
+        snprintf(text, sizeof text, "speed along the lip after over before, mu %g", frictions[f]);
+        BT_VERIFY("rope thrown on the lip", text, left / along, fmax(coulomb / along, 2.0 / 3),
+                  3e-3, "sliding or rolling cylinder");
+        snprintf(text, sizeof text, "spin times radius over the speed lost, mu %g", frictions[f]);
+        if (frictions[f] > 0)
+            BT_VERIFY("rope thrown on the lip", text,
+                      radius_m * fabs(r.state.wy[0]) / (along - left), 2, 0.03,
+                      "m r^2 over I of a solid cylinder");
+        rope_close(&r);
     }
 }
 
@@ -231,8 +267,8 @@ static void a_steep_head_catches_by_the_arm_and_a_facing_one_directly(void** sta
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(without_friction_it_is_scooped_when_the_lip_lies_below_its_centre),
-        cmocka_unit_test(with_friction_the_criterion_moves_by_the_friction_angle),
+        cmocka_unit_test(it_is_scooped_when_the_lip_lies_below_its_centre),
+        cmocka_unit_test(thrown_along_the_lip_it_keeps_two_thirds),
         cmocka_unit_test(a_steep_head_catches_by_the_arm_and_a_facing_one_directly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

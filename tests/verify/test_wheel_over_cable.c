@@ -65,9 +65,12 @@ static void crossing_step(crossing* c) {
     w->spin_radps[1] = speed_mps / bt_tyre_rolling_radius(&c->tyre, c->sink_m);
     bt_moving_body_to(w, 0);
     bt_cable_clear_loads(&c->cable_model, &c->cable);
-    bt_wheel_contact_apply(&c->contact, &c->cable_model, &c->cable, w, step_s);
+    bt_cable_forces(&c->cable_model, &c->cable);
+    bt_slides slides = {.count = 0};
+    bt_wheel_contact_press(&c->contact, &c->cable_model, &c->cable, w, &slides, step_s);
+    bt_slides_resolve(&slides, &c->cable_model, &c->cable, step_s);
     c->peak_N = fmax(c->peak_N, c->contact.normal_N);
-    bt_cable_step(&c->cable_model, &c->cable, step_s);
+    bt_cable_advance(&c->cable_model, &c->cable, step_s);
     c->time_s += step_s;
 }
 

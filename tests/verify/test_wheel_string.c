@@ -79,7 +79,9 @@ static double underside(const rope* r, double y) {
 /// Both wheels roll on, without friction, at the height at which they just press the string to the
 /// deck; x is where they are.
 static void roll(rope* r, bt_wheel_contact contact[2], double x, double speed_mps, double step) {
+    bt_slides slides = {.count = 0};
     bt_cable_clear_loads(&r->model, &r->state);
+    bt_cable_forces(&r->model, &r->state);
     for (int k = 0; k < 2 && x < 0.5 * WHEEL_RADIUS_M; ++k) {
         bt_moving_body wheel = {
             .position_m = {x, k ? WHEEL_M : -WHEEL_M, WHEEL_RADIUS_M + 2 * r->model.radius_m},
@@ -87,9 +89,9 @@ static void roll(rope* r, bt_wheel_contact contact[2], double x, double speed_mp
             .spin_radps = {0, speed_mps / WHEEL_RADIUS_M, 0},
             .rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
         bt_moving_body_to(&wheel, 0);
-        bt_wheel_contact_apply(&contact[k], &r->model, &r->state, &wheel, step);
+        bt_wheel_contact_press(&contact[k], &r->model, &r->state, &wheel, &slides, step);
     }
-    bt_cable_step(&r->model, &r->state, step);
+    bt_cable_advance(&r->model, &r->state, step);
 }
 
 static rolled roll_over_string(double height_m, double segment_m, double speed_mps,

@@ -1,0 +1,119 @@
+#include "cable/slide.h"
+
+#include "cable/deck.h"
+#include "elements/friction.h"
+#include "mechanics/vec.h"
+
+/// Velocities of a segment: of its centre, and angular.
+typedef struct motion {
+    double v[3], w[3];
+} motion;
+
+/// What an impulse and its moment about the centre add to the motion of a segment.
+static void respond(const bt_cable_model* model, const bt_cable_state* s, int i,
+                    const double impulse[3], const double moment[3], motion* m) {
+    const double t[3] = {s->tx[i], s->ty[i], s->tz[i]};
+    bt_add_scaled(m->v, model->inverse_mass[i], impulse);
+    bt_add_scaled(m->w, model->inverse_tilt[i], moment);
+    bt_add_scaled(m->w, model->inverse_spin[i] * bt_dot(moment, t), t);
+}
+
+/// As `respond`, of a force at an arm from the centre during a time.
+static void respond_at(const bt_cable_model* model, const bt_cable_state* s, int i,
+                       const double arm[3], const double force[3], double time_s, motion* m) {
+    double impulse[3], moment[3];
+    for (int k = 0; k < 3; ++k)
+        impulse[k] = time_s * force[k];
+    bt_cross(arm, impulse, moment);
+    respond(model, s, i, impulse, moment, m);
+}
+
+static void arm_of(const bt_cable_state* s, const bt_cable_slide* slide, double arm[3]) {
+    arm[0] = slide->point_m[0] - s->x[slide->segment];
+    arm[1] = slide->point_m[1] - s->y[slide->segment];
+    arm[2] = slide->point_m[2] - s->z[slide->segment];
+}
+
+/// Motion of a segment in the middle of the coming kick, of joints, supports, deck, weight and the
+/// loads set so far.
+static motion in_the_middle(const bt_cable_model* model, const bt_cable_state* s, int i,
+                            double kick_s) {
+    const deck_law law = deck_law_of(model);
+    const double tilt_rate = s->wx[i] * s->ty[i] - s->wy[i] * s->tx[i];
+    const deck_push deck =
+        deck_under(law, model->half_m[i], s->z[i], s->tz[i], s->vz[i], tilt_rate);
+    const double sx = s->vx[i] - s->wy[i] * law.radius, sy = s->vy[i] + s->wx[i] * law.radius;
+    const double drag = deck_drag(law, deck.normal, sx, sy, kick_s * model->inverse_slide[i]);
+    const double half_s = 0.5 * kick_s, weight = model->def.gravity_mps2 * model->mass_kg[i];
+    const int j = i + 1;
+    const double impulse[3] = {
+        half_s * (s->joint_fx[j] - s->joint_fx[i] + s->fx[i] - drag * sx),
+        half_s * (s->joint_fy[j] - s->joint_fy[i] + s->fy[i] - drag * sy),
+        half_s *
+            (s->joint_fz[j] - s->joint_fz[i] + s->fz[i] + s->support_fz[i] + deck.normal - weight),
+    };
+    const double moment[3] = {
+        half_s * (s->before_x[j] + s->after_x[i] + s->mx[i] + s->support_mx[i] +
+                  deck.moment * s->ty[i] - law.radius * drag * sy),
+        half_s * (s->before_y[j] + s->after_y[i] + s->my[i] + law.radius * drag * sx -
+                  deck.moment * s->tx[i]),
+        half_s * (s->before_z[j] + s->after_z[i] + s->mz[i]),
+    };
+    motion m = {.v = {s->vx[i], s->vy[i], s->vz[i]}, .w = {s->wx[i], s->wy[i], s->wz[i]}};
+    respond(model, s, i, impulse, moment, &m);
+    return m;
+}
+
+/// The tangential slip of a motion at a contact.
+static void slip_of(const motion* m, const bt_cable_slide* slide, const double arm[3],
+                    double slip[3]) {
+    bt_cross(m->w, arm, slip);
+    for (int k = 0; k < 3; ++k)
+        slip[k] += m->v[k] - slide->other_mps[k];
+    bt_add_scaled(slip, -bt_dot(slip, slide->normal), slide->normal);
+}
+
+/// Friction at one contact; its work during the kick, J.
+static double rub(const bt_cable_model* model, const bt_cable_state* s, double kick_s,
+                  const motion* m, bt_cable_slide* slide) {
+    const int i = slide->segment;
+    double arm[3], slip[3];
+    arm_of(s, slide, arm);
+    slip_of(m, slide, arm, slip);
+    bt_friction_force(slide->limit_N, slide->slip_speed_mps, slip, slide->force_N);
+    const double size = bt_norm(slide->force_N), speed = bt_norm(slip);
+    if (!(size > 0))
+        return 0;
+    double turning[3];
+    bt_cross(arm, slide->force_N, turning);
+    const double along = s->tx[i] * turning[0] + s->ty[i] * turning[1] + s->tz[i] * turning[2];
+    const double per_mass =
+        model->inverse_mass[i] + (model->inverse_tilt[i] * bt_dot(turning, turning) +
+                                  model->inverse_spin[i] * along * along) /
+                                     (size * size);
+    const double most = speed / (kick_s * per_mass);
+    const double force = size < most ? size : most;
+    for (int k = 0; k < 3; ++k)
+        slide->force_N[k] *= force / size;
+    return -kick_s * force * (speed - 0.5 * kick_s * per_mass * force);
+}
+
+double bt_cable_slides(const bt_cable_model* model, bt_cable_state* cable, double step_s,
+                       bt_cable_slide* slides, int count) {
+    const double kick_s = 0.5 * (cable->scalars->last_step_s + step_s);
+    double work_J = 0;
+    for (int n = 0; n < count; ++n) {
+        bt_cable_slide* slide = &slides[n];
+        motion m = in_the_middle(model, cable, slide->segment, kick_s);
+        // of the frictions found before on this segment the whole: together they only take energy
+        for (int k = 0; k < n; ++k)
+            if (slides[k].segment == slide->segment) {
+                double arm[3];
+                arm_of(cable, &slides[k], arm);
+                respond_at(model, cable, slide->segment, arm, slides[k].force_N, 0.5 * kick_s, &m);
+            }
+        work_J += rub(model, cable, kick_s, &m, slide);
+        bt_cable_add_load(cable, slide->segment, slide->force_N, slide->point_m);
+    }
+    return work_J;
+}
