@@ -64,5 +64,4 @@ const bt_element_type bt_centring_type = {
     .output_names = output_names,
     .force = centring_force,
     .energy = centring_energy,
-    .dissipates = true,
 };

@@ -72,6 +72,14 @@ double bt_hook_damper_force(const bt_hook_damper* damper, double stroke_m, doubl
            bt_hook_damper_limit_force(damper, stroke_m, rate_mps);
 }
 
+bt_law bt_hook_damper_law(const bt_hook_damper* damper, double stroke_m, const char** what) {
+    if (!(stroke_m > damper->stroke_max))
+        return BT_LAW_HOLDS;
+    const bool gas = isfinite(bt_hook_damper_gas_force(damper, stroke_m));
+    *what = gas ? "hook damper bottomed" : "no gas volume in the hook damper";
+    return gas ? BT_LAW_AT_LIMIT : BT_LAW_LEFT;
+}
+
 double bt_hook_damper_energy(const bt_hook_damper* damper, double stroke_m) {
     const double n = damper->exponent, v0 = damper->air_volume, area = damper->air_area;
     const double ratio = -log1p(-area * stroke_m / v0);

@@ -6,6 +6,7 @@
 #define BT_ELEMENTS_HOOK_DAMPER_H
 
 #include "base/fields.h"
+#include "mechanics/system.h"
 
 // clang-format off
 #define BT_HOOK_DAMPER_FIELDS(F)                                                                   \
@@ -48,6 +49,10 @@ double bt_hook_damper_limit_force(const bt_hook_damper* damper, double stroke_m,
 
 /// Sum of the three, N.
 double bt_hook_damper_force(const bt_hook_damper* damper, double stroke_m, double rate_mps);
+
+/// Whether the law holds at a stroke: at its limit beyond the full stroke ("hook damper bottomed");
+/// left where the gas has no volume ("no gas volume in the hook damper"). Below 0 is its down stop.
+bt_law bt_hook_damper_law(const bt_hook_damper* damper, double stroke_m, const char** what);
 
 /// Energy of gas and stops, J, 0 at s = 0.
 double bt_hook_damper_energy(const bt_hook_damper* damper, double stroke_m);

@@ -46,6 +46,11 @@ static double hold_energy(const bt_element* element, const bt_motion* motion) {
                                  stroke(element, motion, end_a, end_b, direction, &rate));
 }
 
+static bt_law hold_law(const bt_element* element, const double* output, const char** what) {
+    const bt_hook_hold* h = element->data;
+    return bt_hook_damper_law(&h->damper, output[BT_HOOK_HOLD_STROKE], what);
+}
+
 static const char* const output_names[] = {"stroke_m", "rate_mps", "force_N"};
 
 const bt_element_type bt_hook_hold_type = {
@@ -55,7 +60,7 @@ const bt_element_type bt_hook_hold_type = {
     .output_names = output_names,
     .force = hold_force,
     .energy = hold_energy,
-    .dissipates = true,
+    .law = hold_law,
 };
 
 void bt_hook_hold_place(double down_stop_rad, double lever_m, double angle_rad, double length_m,

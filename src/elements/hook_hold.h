@@ -17,7 +17,7 @@ typedef struct bt_hook_hold {
 
 enum { BT_HOOK_HOLD_STROKE, BT_HOOK_HOLD_RATE, BT_HOOK_HOLD_FORCE, BT_HOOK_HOLD_OUTPUTS };
 
-/// Outputs stroke_m, rate_mps, force_N. Energy: gas and stops.
+/// Outputs stroke_m, rate_mps, force_N. Energy: gas and stops. Law: the damper's.
 extern const bt_element_type bt_hook_hold_type;
 
 /// Where the damper is attached, from what a drawing gives.

@@ -280,6 +280,14 @@ double bt_oleo_force(const bt_oleo* oleo, double stroke_m, double rate_mps) {
     return gas + oil + limit + bt_oleo_friction_force(oleo, stroke_m, rate_mps, gas, oil);
 }
 
+bt_law bt_oleo_law(const bt_oleo* oleo, double stroke_m, const char** what) {
+    if (!(stroke_m > oleo->stroke_max))
+        return BT_LAW_HOLDS;
+    const bool gas = isfinite(bt_oleo_gas_force(oleo, stroke_m));
+    *what = gas ? "strut bottomed" : "no gas volume in the strut";
+    return gas ? BT_LAW_AT_LIMIT : BT_LAW_LEFT;
+}
+
 double bt_oleo_energy(const bt_oleo* oleo, double stroke_m) {
     const double beyond = stroke_m < 0 ? stroke_m : fmax(stroke_m - oleo->stroke_max, 0);
     return bt_oleo_gas_energy(oleo, stroke_m) + 0.5 * oleo->stop_stiffness * beyond * beyond;

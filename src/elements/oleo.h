@@ -6,6 +6,7 @@
 #define BT_ELEMENTS_OLEO_H
 
 #include "elements/curve.h"
+#include "mechanics/system.h"
 
 extern const char* const bt_orifice_law_names[]; ///< in the order of bt_curve_law
 extern const char* const bt_spring_names[];      ///< "gas", "points", NULL
@@ -130,6 +131,10 @@ double bt_oleo_friction_force(const bt_oleo* oleo, double stroke_m, double rate_
 
 /// F_s = F_a + F_h + F_l  [Peng2023 Eq. 2], plus friction where there is any, N.
 double bt_oleo_force(const bt_oleo* oleo, double stroke_m, double rate_mps);
+
+/// Whether the law holds at a stroke: at its limit beyond the full stroke, where the stop carries
+/// the load ("strut bottomed"); left where the gas has no volume ("no gas volume in the strut").
+bt_law bt_oleo_law(const bt_oleo* oleo, double stroke_m, const char** what);
 
 /// Energy of gas and stops, J: what the strut can give back.
 double bt_oleo_energy(const bt_oleo* oleo, double stroke_m);

@@ -50,5 +50,4 @@ const bt_element_type bt_spring_element = {
     .output_names = outputs,
     .force = spring_force,
     .energy = spring_energy,
-    .dissipates = true,
 };

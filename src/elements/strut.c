@@ -55,6 +55,11 @@ static double strut_energy(const bt_element* element, const bt_motion* motion) {
     return bt_oleo_energy(&s->oleo, stroke(element, motion, axis, point, &rate));
 }
 
+static bt_law strut_law(const bt_element* element, const double* output, const char** what) {
+    const bt_strut* s = element->data;
+    return bt_oleo_law(&s->oleo, output[BT_STRUT_STROKE], what);
+}
+
 static const char* const output_names[] = {"stroke_m", "rate_mps", "force_N"};
 
 const bt_element_type bt_strut_type = {
@@ -64,5 +69,5 @@ const bt_element_type bt_strut_type = {
     .output_names = output_names,
     .force = strut_force,
     .energy = strut_energy,
-    .dissipates = true,
+    .law = strut_law,
 };

@@ -17,7 +17,7 @@ typedef struct bt_strut {
 
 enum { BT_STRUT_STROKE, BT_STRUT_RATE, BT_STRUT_FORCE, BT_STRUT_OUTPUTS };
 
-/// Outputs stroke_m, rate_mps, force_N. Energy: gas and stops.
+/// Outputs stroke_m, rate_mps, force_N. Energy: gas and stops. Law: the oleo's.
 extern const bt_element_type bt_strut_type;
 
 #endif

@@ -82,7 +82,6 @@ const bt_element_type bt_torsion_element = {
     .output_names = torsion_outputs,
     .force = torsion_force,
     .energy = torsion_energy,
-    .dissipates = true,
 };
 
 /* ------------------------------------------------------------------ constant loads */
@@ -102,7 +101,6 @@ const bt_element_type bt_torque_element = {
     .name = "torque",
     .data_size = sizeof(bt_torque),
     .force = torque_force,
-    .dissipates = true,
 };
 
 static void force_force(const bt_element* element, const bt_motion* motion, double* wrench,
@@ -144,5 +142,4 @@ const bt_element_type bt_follower_element = {
     .name = "follower",
     .data_size = sizeof(bt_follower),
     .force = follower_force,
-    .dissipates = true,
 };

@@ -146,6 +146,18 @@ double bt_tyre_stiffness(const bt_tyre* tyre, double deflection_m) {
     return tyre->tyres * one_stiffness(tyre, deflection_m) + rim;
 }
 
+bt_law bt_tyre_law(const bt_tyre* tyre, double deflection_m, const char** what) {
+    const double rim = isinf(tyre->bottoming) ? tyre->width : tyre->bottoming;
+    if (deflection_m >= tyre->radius) {
+        *what = "axle at the deck";
+        return BT_LAW_LEFT;
+    }
+    if (!(deflection_m > rim))
+        return BT_LAW_HOLDS;
+    *what = "tyre on its rim";
+    return BT_LAW_AT_LIMIT;
+}
+
 double bt_tyre_normal_force(const bt_tyre* tyre, double deflection_m, double rate_mps) {
     if (!(deflection_m > 0))
         return 0;

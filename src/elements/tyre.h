@@ -4,6 +4,7 @@
 #define BT_ELEMENTS_TYRE_H
 
 #include "elements/curve.h"
+#include "mechanics/system.h"
 
 extern const char* const bt_tyre_law_names[]; ///< "smiley_horne", "points", "power", NULL
 enum { BT_TYRE_SMILEY_HORNE, BT_TYRE_POINTS, BT_TYRE_POWER };
@@ -61,6 +62,11 @@ double bt_tyre_load(const bt_tyre* tyre, double deflection_m);
 double bt_tyre_energy(const bt_tyre* tyre, double deflection_m);
 /// Stiffness f'(d), N/m; 0 for d <= 0.
 double bt_tyre_stiffness(const bt_tyre* tyre, double deflection_m);
+/// Whether the law holds at a deflection. At its limit where the tyre stands on its rim: beyond
+/// bottoming_deflection, or where none is given, beyond the width of the tyre, which no aircraft
+/// tyre's section exceeds in height ("tyre on its rim"). Left where the axle would reach the deck
+/// ("axle at the deck").
+bt_law bt_tyre_law(const bt_tyre* tyre, double deflection_m, const char** what);
 /// Magnitude f(d) + (c + 2 zeta sqrt(m f'(d))) d', never negative, 0 off the ground, N.
 double bt_tyre_normal_force(const bt_tyre* tyre, double deflection_m, double rate_mps);
 

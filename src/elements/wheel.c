@@ -93,6 +93,11 @@ static double wheel_energy(const bt_element* element, const bt_motion* motion) {
     return bt_tyre_energy(&wheel->tyre, wheel->tyre.radius - plane.height_m);
 }
 
+static bt_law wheel_law(const bt_element* element, const double* output, const char** what) {
+    const bt_wheel* wheel = element->data;
+    return bt_tyre_law(&wheel->tyre, output[BT_WHEEL_DEFLECTION], what);
+}
+
 static const char* const output_names[] = {"deflection_m", "normal_N", "longitudinal_N",
                                            "lateral_N"};
 
@@ -103,5 +108,5 @@ const bt_element_type bt_wheel_type = {
     .output_names = output_names,
     .force = wheel_force,
     .energy = wheel_energy,
-    .dissipates = true,
+    .law = wheel_law,
 };

@@ -15,7 +15,7 @@ typedef struct bt_wheel {
 enum { BT_WHEEL_DEFLECTION, BT_WHEEL_NORMAL, BT_WHEEL_FORWARD, BT_WHEEL_LATERAL, BT_WHEEL_OUTPUTS };
 
 /// Outputs deflection_m, normal_N, longitudinal_N (forward positive), lateral_N (left positive).
-/// Energy: the tyre's.
+/// Energy and law: the tyre's.
 extern const bt_element_type bt_wheel_type;
 
 /// The plane of a wheel over a level deck. axle x z is the heading u; w = u x axle points up in

@@ -59,6 +59,14 @@ static double energy(const bt_element* element, const bt_motion* motion) {
     return point[2] < 0 ? bt_impact_energy(&shoe->impact, -point[2]) : 0;
 }
 
+static bt_law law(const bt_element* element, const double* output, const char** what) {
+    const bt_shoe* shoe = element->data;
+    if (!(output[BT_SHOE_HEIGHT] < -shoe->shoe_radius_m))
+        return BT_LAW_HOLDS;
+    *what = "shoe below the deck";
+    return BT_LAW_LEFT;
+}
+
 static const char* const output_names[] = {"height_m", "rate_mps", "force_N", "x_m"};
 
 const bt_element_type bt_shoe_type = {
@@ -68,5 +76,5 @@ const bt_element_type bt_shoe_type = {
     .output_names = output_names,
     .force = force,
     .energy = energy,
-    .dissipates = true,
+    .law = law,
 };

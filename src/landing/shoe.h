@@ -18,6 +18,8 @@ enum { BT_SHOE_HEIGHT, BT_SHOE_RATE, BT_SHOE_FORCE, BT_SHOE_X, BT_SHOE_OUTPUTS }
 
 /// Outputs: height of the lowest point above the deck (m), vertical velocity of the material point
 /// there (m/s), normal force (N), x of the lowest point (m).
+/// Law: left where the shoe is pressed in by more than its own radius ("shoe below the
+/// deck"), which Hertz' theory of small contacts does not describe.
 /// body_a: the hook. data: bt_shoe.
 extern const bt_element_type bt_shoe_type;
 

@@ -154,6 +154,22 @@ const double* bt_system_element_output(const bt_system* system, const bt_state* 
     return state->output + system->elements[element].output_first;
 }
 
+bt_law bt_system_element_law(const bt_system* system, const bt_state* state, int element,
+                             const char** what) {
+    const bt_element* e = &system->elements[element].element;
+    if (!e->type->law)
+        return BT_LAW_HOLDS;
+    return e->type->law(e, bt_system_element_output(system, state, element), what);
+}
+
+const char* bt_system_element_name(const bt_system* system, int element) {
+    return system->elements[element].element.name;
+}
+
+int bt_system_element_count(const bt_system* system) {
+    return system->element_count;
+}
+
 /* ------------------------------------------------------------------ a state's one block */
 
 /// Pieces of the block in order; called with block NULL to measure. Returns its size in bytes.

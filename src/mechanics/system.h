@@ -98,6 +98,13 @@ typedef struct bt_motion {
 
 struct bt_element;
 
+/// What the law of an element says of a state.
+typedef enum bt_law {
+    BT_LAW_HOLDS,
+    BT_LAW_AT_LIMIT, ///< the part is at the end of its range; the law still describes it: a remark
+    BT_LAW_LEFT,     ///< the law has no meaning there: what is computed is not to be used
+} bt_law;
+
 /// A kind of element: one constant table, one file. `data` of an element is a copy of what its
 /// def pointed to.
 typedef struct bt_element_type {
@@ -110,9 +117,9 @@ typedef struct bt_element_type {
                   double* output);
     /// Stored energy, J; NULL when the element stores none.
     double (*energy)(const struct bt_element* element, const bt_motion* motion);
-    /// Whether it may take energy out (NULL energy and true: a damper). Conservative elements are
-    /// audited to zero.
-    bool dissipates;
+    /// Range of validity, from the outputs of an evaluation; NULL: the law holds everywhere. When
+    /// it is not BT_LAW_HOLDS, *what says why in a few constant words ("strut bottomed").
+    bt_law (*law)(const struct bt_element* element, const double* output, const char** what);
 } bt_element_type;
 
 typedef struct bt_element {
@@ -144,6 +151,12 @@ int bt_system_body_find(const bt_system* system, const char* name);
 int bt_system_joint_find(const bt_system* system, const char* name);
 int bt_system_element_find(const bt_system* system, const char* name);
 const double* bt_system_element_output(const bt_system* system, const bt_state* state, int element);
+/// Whether an element's law holds at its present outputs; *what (untouched when it holds) lives as
+/// long as the program.
+bt_law bt_system_element_law(const bt_system* system, const bt_state* state, int element,
+                             const char** what);
+const char* bt_system_element_name(const bt_system* system, int element);
+int bt_system_element_count(const bt_system* system);
 
 /// One motion: everything that changes, in one block.
 struct bt_state {

@@ -51,7 +51,6 @@ static const bt_element_type buffer_type = {
     .output_names = buffer_names,
     .force = buffer_force,
     .energy = buffer_energy,
-    .dissipates = true,
 };
 
 typedef struct rebound_rig {

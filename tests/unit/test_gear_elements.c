@@ -368,6 +368,46 @@ static void wheel_on_a_belt_feels_the_belts_speed(void** state) {
         BT_ASSERT_NEAR(t.wrench[i], s.wrench[i], 1e-13, 1e-9);
 }
 
+/// The words an element has for a state, "" where its law holds.
+static const char* said(const bt_element* e, const double* output, bt_law want) {
+    const char* what = "";
+    assert_int_equal(e->type->law(e, output, &what), want);
+    return what;
+}
+
+static void laws_tell_where_they_end(void** state) {
+    (void)state;
+    const bt_strut strut = strut_data(); // stroke 0.6 m, gas gone at 8.04e-3 / 0.0113 = 0.7115 m
+    const bt_element s = {&bt_strut_type, "strut", 0, 1, &strut};
+    double output[8] = {0.6};
+    assert_string_equal(said(&s, output, BT_LAW_HOLDS), "");
+    output[BT_STRUT_STROKE] = 0.6001;
+    assert_string_equal(said(&s, output, BT_LAW_AT_LIMIT), "strut bottomed");
+    output[BT_STRUT_STROKE] = 0.7116;
+    assert_string_equal(said(&s, output, BT_LAW_LEFT), "no gas volume in the strut");
+
+    bt_wheel wheel = wheel_data(); // radius 0.47 m, width 0.292 m
+    const bt_element w = {&bt_wheel_type, "tyre", 0, BT_GROUND, &wheel};
+    output[BT_WHEEL_DEFLECTION] = 0.292;
+    assert_string_equal(said(&w, output, BT_LAW_HOLDS), "");
+    output[BT_WHEEL_DEFLECTION] = 0.293;
+    assert_string_equal(said(&w, output, BT_LAW_AT_LIMIT), "tyre on its rim");
+    output[BT_WHEEL_DEFLECTION] = 0.47;
+    assert_string_equal(said(&w, output, BT_LAW_LEFT), "axle at the deck");
+    wheel.tyre.bottoming = 0.1;
+    output[BT_WHEEL_DEFLECTION] = 0.11;
+    assert_string_equal(said(&w, output, BT_LAW_AT_LIMIT), "tyre on its rim");
+
+    const bt_hook_hold hold = hold_data(); // stroke 0.6 m, gas gone at 3e-3 / 1.96e-3 = 1.53 m
+    const bt_element h = {&bt_hook_hold_type, "hold", 0, 1, &hold};
+    output[BT_HOOK_HOLD_STROKE] = -0.01; // on the down stop it always is
+    assert_string_equal(said(&h, output, BT_LAW_HOLDS), "");
+    output[BT_HOOK_HOLD_STROKE] = 0.61;
+    assert_string_equal(said(&h, output, BT_LAW_AT_LIMIT), "hook damper bottomed");
+    output[BT_HOOK_HOLD_STROKE] = 1.54;
+    assert_string_equal(said(&h, output, BT_LAW_LEFT), "no gas volume in the hook damper");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strut_forces_are_equal_and_opposite),
@@ -382,6 +422,7 @@ int main(void) {
         cmocka_unit_test(eq8_wheel_forces_oppose_sliding_in_the_wheels_own_axes),
         cmocka_unit_test(wheel_power_is_energy_and_slip),
         cmocka_unit_test(wheel_on_a_belt_feels_the_belts_speed),
+        cmocka_unit_test(laws_tell_where_they_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
