@@ -41,7 +41,8 @@ const bt_verb bt_verb_land = {
     .summary = "simulate one landing: outcome, bounces, peak loads",
     .arguments = "STUDY.yaml",
     .text = "Simulates the landing of the study's `landing:' and says whether the hook caught the "
-            "wire, how, by which margin, how the hook bounced, and the peak loads.\n\n"
+            "wire, how, by which margin, how the hook bounced, and the peak loads. Loads of the "
+            "hook on the deck are not calibrated; loads after a catch hold for 50 ms.\n\n"
             "  bolter land study.yaml --set landing.distance='7 m'\n"
             "  bolter land study.yaml -o landing.h5     time histories (HDF5, with units)\n\n"
             "The exit code is 4 when the computation diverged.",

@@ -3,6 +3,7 @@
 #include "elements/centring.h"
 #include "elements/hook_hold.h"
 #include "elements/strut.h"
+#include "elements/torque.h"
 #include "elements/wheel.h"
 #include "mechanics/vec.h"
 
@@ -11,6 +12,8 @@
 const char* const bt_body_names[BT_BODY_COUNT] = {"fuselage",     "nose_piston", "left_piston",
                                                   "right_piston", "nose_wheel",  "left_wheel",
                                                   "right_wheel",  "hook"};
+
+enum { BODIES_MAX = BT_BODY_COUNT + 1, SHANK_ROOT = BT_BODY_COUNT };
 
 /// Lift: a constant force on the fuselage at the aircraft's centre of gravity.
 typedef struct lift {
@@ -57,7 +60,9 @@ static void place_parts(const bt_aircraft_params* p, bt_airframe* f) {
     f->pivot_m[0] = p->hook.pivot_x_m;
     f->pivot_m[1] = 0;
     f->pivot_m[2] = p->hook.pivot_z_m;
-    f->shoe_m[0] = p->hook.mass_centre_m - p->hook.length_m;
+    bt_shank_prepare(&p->hook, &f->shank);
+    f->body_count = f->shank.bends ? BODIES_MAX : BT_BODY_COUNT;
+    f->shoe_m[0] = f->shank.head.centre_m - p->hook.length_m;
     f->shoe_m[1] = f->shoe_m[2] = 0;
 }
 
@@ -74,7 +79,7 @@ static bt_status add_fuselage(const bt_aircraft_params* p, const bt_body_def* pa
     double mass = p->mass_kg, first[3] = {0};
     double inertia[6] = {
         p->inertia_xx_kgm2, p->inertia_yy_kgm2, p->inertia_zz_kgm2, 0, p->inertia_xz_kgm2, 0};
-    for (int body = 1; body < BT_BODY_COUNT; ++body) {
+    for (int body = 1; body < f->body_count; ++body) {
         const bt_body_def* part = &parts[body];
         const double* r = part->position_m;
         double a[9], turned[9] = {0};
@@ -116,9 +121,24 @@ static bt_status add_fuselage(const bt_aircraft_params* p, const bt_body_def* pa
     return BT_OK;
 }
 
+/// A part of the hook as it hangs: straight from the pivot to `turned_m`, from there on at its
+/// angle.
+static void describe_shank(const bt_shank_part* part, double turned_m, double angle_rad,
+                           const bt_airframe* f, const char* name, bt_body_def* body) {
+    const double c = cos(angle_rad), s = sin(angle_rad), along = part->centre_m - turned_m;
+    *body = (bt_body_def){
+        .name = name,
+        .mass_kg = part->mass_kg,
+        .inertia_kgm2 = {part->axial_inertia_kgm2, part->inertia_kgm2, part->inertia_kgm2},
+        .position_m = {f->pivot_m[0] - turned_m * cos(f->hook_angle_rad) - along * c, 0,
+                       f->pivot_m[2] - turned_m * sin(f->hook_angle_rad) - along * s},
+    };
+    hook_attitude(angle_rad, body->attitude);
+}
+
 /// The parts other than the fuselage, as they hang in the glide, from the centre of gravity.
 static void describe_parts(const bt_aircraft_params* p, const bt_airframe* f,
-                           bt_body_def parts[BT_BODY_COUNT]) {
+                           bt_body_def parts[BODIES_MAX]) {
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
         const bt_gear_params* gear = gear_of(p, leg);
         const double* axle = f->axle_m[leg];
@@ -138,18 +158,11 @@ static void describe_parts(const bt_aircraft_params* p, const bt_airframe* f,
         parts[BT_BODY_NOSE_PISTON + leg] = piston;
         parts[BT_BODY_NOSE_WHEEL + leg] = wheel;
     }
-    const bt_hook_params* h = &p->hook;
-    const double c = cos(f->hook_angle_rad), s = sin(f->hook_angle_rad);
-    const double about_centre = h->inertia_kgm2 - h->mass_kg * h->mass_centre_m * h->mass_centre_m;
-    bt_body_def hook = {
-        .name = bt_body_names[BT_BODY_HOOK],
-        .mass_kg = h->mass_kg,
-        .inertia_kgm2 = {h->axial_inertia_kgm2, about_centre, about_centre},
-        .position_m = {f->pivot_m[0] - h->mass_centre_m * c, 0,
-                       f->pivot_m[2] - h->mass_centre_m * s},
-    };
-    hook_attitude(f->hook_angle_rad, hook.attitude);
-    parts[BT_BODY_HOOK] = hook;
+    const bt_shank* shank = &f->shank;
+    describe_shank(&shank->head, shank->joint_m, f->head_angle_rad, f, bt_body_names[BT_BODY_HOOK],
+                   &parts[BT_BODY_HOOK]);
+    if (shank->bends)
+        describe_shank(&shank->root, 0, f->hook_angle_rad, f, "shank_root", &parts[SHANK_ROOT]);
 }
 
 /// A point given from the centre of gravity, in the fuselage's frame.
@@ -198,13 +211,38 @@ static void add_legs(bt_airframe* f) {
     }
 }
 
+/// The sprung joint of a shank that bends.
+static void add_shank_joint(bt_airframe* f) {
+    const bt_shank* s = &f->shank;
+    bt_system_add_joint(f->system,
+                        &(bt_joint_def){.name = "shank_joint",
+                                        .kind = BT_JOINT_REVOLUTE,
+                                        .body_a = SHANK_ROOT,
+                                        .body_b = BT_BODY_HOOK,
+                                        .point_a_m = {s->root.centre_m - s->joint_m, 0, 0},
+                                        .point_b_m = {s->head.centre_m - s->joint_m, 0, 0},
+                                        .axis_a = {0, 1, 0},
+                                        .axis_b = {0, 1, 0}});
+    const bt_torsion spring = {.axis = {0, 1, 0},
+                               .stiffness_Nmprad = s->stiffness_Nmprad,
+                               .damping_Nmsprad = s->damping_Nmsprad};
+    bt_system_add_element(f->system, &(bt_element){.type = &bt_torsion_element,
+                                                   .name = "shank_spring",
+                                                   .body_a = SHANK_ROOT,
+                                                   .body_b = BT_BODY_HOOK,
+                                                   .data = &spring});
+}
+
 static void add_hook(const bt_aircraft_params* p, const bt_hook_damper* damper, bt_airframe* f) {
     const bt_hook_params* h = &p->hook;
+    // the part on the pivot
+    const int root = f->shank.bends ? SHANK_ROOT : BT_BODY_HOOK;
+    const double centre_m = f->shank.bends ? f->shank.root.centre_m : f->shank.head.centre_m;
     bt_joint_def pivot = {.name = "hook_pivot",
                           .kind = BT_JOINT_UNIVERSAL,
                           .body_a = BT_BODY_FUSELAGE,
-                          .body_b = BT_BODY_HOOK,
-                          .point_b_m = {h->mass_centre_m, 0, 0},
+                          .body_b = root,
+                          .point_b_m = {centre_m, 0, 0},
                           .axis_a = {0, 1, 0},
                           .axis_b = {0, 0, 1}};
     from_fuselage(f, f->pivot_m, pivot.point_a_m);
@@ -215,13 +253,13 @@ static void add_hook(const bt_aircraft_params* p, const bt_hook_damper* damper, 
                        on_shank, on_fuselage);
     bt_hook_hold hold = {.damper = *damper,
                          .length_m = h->damper_length_m,
-                         .point_b_m = {h->mass_centre_m - h->damper_lever_m, 0, 0}};
+                         .point_b_m = {centre_m - h->damper_lever_m, 0, 0}};
     for (int i = 0; i < 3; ++i)
         hold.point_a_m[i] = pivot.point_a_m[i] + on_fuselage[i];
     f->damper = bt_system_add_element(f->system, &(bt_element){.type = &bt_hook_hold_type,
                                                                .name = "hook_damper",
                                                                .body_a = BT_BODY_FUSELAGE,
-                                                               .body_b = BT_BODY_HOOK,
+                                                               .body_b = root,
                                                                .data = &hold});
     const bt_centring centring = {.axis_a = {0, 1, 0},
                                   .axis_b = {0, 0, 1},
@@ -231,8 +269,10 @@ static void add_hook(const bt_aircraft_params* p, const bt_hook_damper* damper, 
     bt_system_add_element(f->system, &(bt_element){.type = &bt_centring_type,
                                                    .name = "centring_damper",
                                                    .body_a = BT_BODY_FUSELAGE,
-                                                   .body_b = BT_BODY_HOOK,
+                                                   .body_b = root,
                                                    .data = &centring});
+    if (f->shank.bends)
+        add_shank_joint(f);
     f->shoe_contact = (bt_shoe){.shoe_radius_m = f->profile.shoe_radius,
                                 .lip_radius_m = f->profile.lip_radius,
                                 .shoe_m = {f->shoe_m[0], f->shoe_m[1], f->shoe_m[2]},
@@ -245,6 +285,27 @@ static void add_hook(const bt_aircraft_params* p, const bt_hook_damper* damper, 
                                                              .data = &f->shoe_contact});
 }
 
+/// How the hook hangs: the damper's stop holds its weight, the shank's spring that of the head.
+static void hang_hook(const bt_hook_params* hook, const bt_hook_damper* damper, double felt_mps2,
+                      bt_airframe* f) {
+    const bt_shank* shank = &f->shank;
+    double moment_Nm = hook->mass_kg * felt_mps2 * hook->mass_centre_m;
+    const double head_Nm =
+        shank->head.mass_kg * felt_mps2 * (shank->head.centre_m - shank->joint_m);
+    for (int turn = 0; turn < (shank->bends ? 20 : 1); ++turn) {
+        const double root = f->hook_angle_rad =
+            bt_hook_hold_hanging_angle(damper, hook->down_stop_rad, hook->damper_lever_m,
+                                       hook->damper_angle_rad, hook->damper_length_m, moment_Nm, 0);
+        f->head_angle_rad = turn ? f->head_angle_rad : root;
+        if (!shank->bends)
+            return;
+        for (int i = 0; i < 10; ++i)
+            f->head_angle_rad = root + head_Nm * cos(f->head_angle_rad) / shank->stiffness_Nmprad;
+        const double lost_Nm = head_Nm * (1 - cos(f->head_angle_rad) / cos(root));
+        moment_Nm = hook->mass_kg * felt_mps2 * hook->mass_centre_m - lost_Nm;
+    }
+}
+
 static bt_status assemble(const bt_aircraft_params* p, double gravity_mps2, bt_airframe* f,
                           bt_diag* diag) {
     bt_hook_damper damper;
@@ -254,15 +315,12 @@ static bt_status assemble(const bt_aircraft_params* p, double gravity_mps2, bt_a
     const double felt = p->lift_ratio * gravity_mps2;
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
         f->stroke_m[leg] = bt_oleo_hanging_stroke(&f->oleo[leg], felt * f->unsprung_kg[leg]);
-    const bt_hook_params* hook = &p->hook;
-    f->hook_angle_rad = bt_hook_hold_hanging_angle(
-        &damper, hook->down_stop_rad, hook->damper_lever_m, hook->damper_angle_rad,
-        hook->damper_length_m, hook->mass_kg * felt * hook->mass_centre_m, 0);
+    hang_hook(&p->hook, &damper, felt, f);
 
-    bt_body_def parts[BT_BODY_COUNT] = {0};
+    bt_body_def parts[BODIES_MAX] = {0};
     describe_parts(p, f, parts);
     BT_TRY(add_fuselage(p, parts, f, diag));
-    for (int body = 1; body < BT_BODY_COUNT; ++body)
+    for (int body = 1; body < f->body_count; ++body)
         bt_system_add_body(f->system, &parts[body]);
     add_legs(f);
     add_hook(p, &damper, f);
@@ -315,7 +373,7 @@ void bt_airframe_place(const bt_airframe* f, const bt_landing_params* landing,
     attitude_of(landing, turn);
     bt_rotation_from_euler(turn, a);
     bt_state_copy(f->system, state, hanging);
-    for (int body = 0; body < BT_BODY_COUNT; ++body) {
+    for (int body = 0; body < f->body_count; ++body) {
         const double* from = hanging->q + 7 * body;
         double* q = state->q + 7 * body;
         double* v = state->v + 6 * body;
@@ -339,7 +397,7 @@ void bt_airframe_place(const bt_airframe* f, const bt_landing_params* landing,
     bt_shoe_lowest(&f->shoe_contact, &motion, BT_BODY_HOOK, glide->hook_m);
 }
 
-void bt_airframe_move(const double shift_m[3], bt_state* state) {
-    for (int body = 0; body < BT_BODY_COUNT; ++body)
+void bt_airframe_move(const bt_airframe* airframe, const double shift_m[3], bt_state* state) {
+    for (int body = 0; body < airframe->body_count; ++body)
         bt_add_scaled(state->q + 7 * body, 1, shift_m);
 }

@@ -1,17 +1,21 @@
 /// The airframe as a multibody system [Peng2023 Eq. 1]: fuselage, three pistons on prismatic
-/// joints, three wheels on revolute joints, the hook on a universal joint; struts, tyres, hook
-/// damper, centring damper, shoe on deck and lift as elements.
+/// joints, three wheels on revolute joints, the hook on a universal joint (and a shank that bends
+/// on a sprung revolute one); struts, tyres, hook damper, centring damper, shoe on deck and lift as
+/// elements.
 #ifndef BT_LANDING_AIRFRAME_H
 #define BT_LANDING_AIRFRAME_H
 
 #include "elements/oleo.h"
 #include "landing/profile.h"
+#include "landing/shank.h"
 #include "landing/shoe.h"
 #include "landing/view.h"
 #include "mechanics/system.h"
 
 typedef struct bt_airframe {
     bt_system* system;
+    int body_count; ///< BT_BODY_COUNT, and one more when the shank bends: its root, the last body
+    bt_shank shank;
     bt_profile profile;
     bt_tyre tyre[BT_LEG_COUNT];
     bt_oleo oleo[BT_LEG_COUNT];
@@ -24,6 +28,7 @@ typedef struct bt_airframe {
     bt_shoe shoe_contact;
     double stroke_m[BT_LEG_COUNT]; ///< in the glide: struts at rest on their stops
     double hook_angle_rad;         ///< in the glide: shank below the fuselage axis
+    double head_angle_rad;         ///< and its part with the head: bent by its weight
     int strut[BT_LEG_COUNT], wheel[BT_LEG_COUNT], damper, shoe; ///< elements
     int strut_joint[BT_LEG_COUNT], hook_joint;
 } bt_airframe;
@@ -46,6 +51,6 @@ void bt_airframe_place(const bt_airframe* airframe, const bt_landing_params* lan
                        const bt_state* hanging, bt_state* state, bt_glide* glide);
 
 /// Moves all bodies by the same shift.
-void bt_airframe_move(const double shift_m[3], bt_state* state);
+void bt_airframe_move(const bt_airframe* airframe, const double shift_m[3], bt_state* state);
 
 #endif

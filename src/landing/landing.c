@@ -208,7 +208,7 @@ static void start(run* r) {
     }
     const double back[3] = {shift[0] + begin_s * p->horizontal_speed_mps, 0,
                             shift[2] - begin_s * p->sink_speed_mps};
-    bt_airframe_move(back, &l->state);
+    bt_airframe_move(&l->airframe, back, &l->state);
     l->state.time_s = begin_s;
     l->state.steps = 0;
 
@@ -472,6 +472,7 @@ bt_status bt_lander_run(bt_lander* lander, const bt_model_params* params, bt_lan
 
     run r = {.lander = lander, .params = params, .result = result};
     start(&r);
+    result->shank_bends = lander->airframe.shank.bends;
     bool sound = bt_system_project(lander->airframe.system, &lander->state, &r.failure) == BT_OK &&
                  bt_system_evaluate(lander->airframe.system, &lander->state, &r.failure) == BT_OK;
     if (!sound)

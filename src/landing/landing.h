@@ -46,7 +46,8 @@ typedef struct bt_landing_result {
     double time_of_contact_s; ///< first hook-cable contact after first deck contact; NAN if none
     int bounce_count;
     bt_bounce bounces[BT_BOUNCE_MAX];
-    double hook_deck_force_peak_N;
+    double hook_deck_force_peak_N; ///< not calibrated: see docs/theory/shank.md
+    bool shank_bends;              ///< of the hook that landed
     double strut_stroke_max_m[BT_LEG_COUNT];
     double tyre_force_max_N[BT_LEG_COUNT];
     double cable_tension_max_N;

@@ -2,6 +2,7 @@
 
 #include "landing/landing.h"
 #include "landing/profile.h"
+#include "landing/shank.h"
 #include "landing/stable_step.h"
 
 #include <stdio.h>
@@ -31,6 +32,20 @@ static void check_hook(const void* params, const char* path, bt_diag* diag) {
                     "kg m^2",
                     path, hook->inertia_kgm2,
                     hook->mass_kg * hook->mass_centre_m * hook->mass_centre_m);
+    bt_shank shank;
+    bt_shank_prepare(hook, &shank);
+    if (about_centre > 0 && !bt_shank_is_sound(&shank))
+        bt_diag_add(
+            diag, BT_ERROR, BT_NOWHERE,
+            "%s.shank_bending_stiffness: length, damper_lever, mass, mass_centre and inertia "
+            "leave no mass to one of the two parts of the shank, joined %g m from the pivot",
+            path, shank.joint_m);
+    const double weight_Nm = 9.81 * shank.head.mass_kg * (shank.head.centre_m - shank.joint_m);
+    if (shank.bends && weight_Nm > 0.1 * shank.stiffness_Nmprad)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s.shank_bending_stiffness: %g N m^2 bends by more than 0.1 rad under the "
+                    "hook's own weight; 0 is a rigid shank",
+                    path, hook->shank_bending_stiffness_Nm2);
 }
 
 #define ROW(kind, name, ...) BT_ROW_##kind(bt_hook_params, name, __VA_ARGS__)

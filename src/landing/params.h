@@ -66,6 +66,10 @@ BT_DECLARE_GROUP(hook_cable, BT_HOOK_CABLE_FIELDS)
     F(REAL, inertia, kgm2, REQUIRED, 227.4, 0.1, 1e5, "", "inertia about the pivot")               \
     F(REAL, axial_inertia, kgm2, OPTIONAL, 1.0, 1e-3, 1e4, "",                                     \
       "inertia about the shank's own axis [assumed]")                                              \
+    F(REAL, shank_bending_stiffness, Nm2, OPTIONAL, 0, 0, 1e9, "",                                 \
+      "EI of the shank, bent at one sprung joint in the plane of symmetry; 0: rigid")              \
+    F(PLAIN, shank_damping_ratio, _, OPTIONAL, 0.02, 0, 2, "",                                     \
+      "damping of that joint, of critical for the part with the head [assumed]")                   \
     F(REAL, down_stop, rad, REQUIRED, 1.2147, 0.2, 1.6, "",                                        \
       "shank angle below the fuselage axis at which the damper is fully extended")                 \
     F(REAL, damper_lever, m, REQUIRED, 0.417, 0.01, 5, "Eq. 9",                                    \
@@ -117,7 +121,8 @@ BT_DECLARE_GROUP(deck, BT_DECK_FIELDS)
     F(REAL, past_cable, m, OPTIONAL, 1.0, 0.05, 50, "Eq. 18",                                      \
       "the run ends when the hook point is this far past the cable")                               \
     F(REAL, after_catch, s, OPTIONAL, 5e-3, 0, 1, "Eq. 18",                                        \
-      "or this long after the throat has caught it")
+      "or this long after the throat has caught it; loads hold for the first 50 ms, since no "     \
+      "arresting engine pays out")
 BT_DECLARE_GROUP(solver, BT_SOLVER_FIELDS)
 
 enum { BT_DISTANCE_FROM_HOOK, BT_DISTANCE_FROM_MAIN_WHEELS };

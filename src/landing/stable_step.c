@@ -2,6 +2,7 @@
 
 #include "cable/cable.h"
 #include "elements/tyre.h"
+#include "landing/shank.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,8 +30,11 @@ static double shoe_step(const bt_model_params* model) {
     const bt_hook_params* hook = &model->aircraft.hook;
     bt_impact contact;
     bt_impact_prepare(&hook->deck_contact, &contact);
-    const double arm = hook->length_m * cos(fmin(hook->down_stop_rad, 1.4));
-    const double mass = hook->inertia_kgm2 / (arm * arm);
+    const double angle = fmin(hook->down_stop_rad, 1.4), arm = hook->length_m * cos(angle);
+    bt_shank shank;
+    bt_shank_prepare(hook, &shank);
+    const double mass = shank.bends ? bt_shank_felt_mass(&shank, hook->length_m, angle)
+                                    : hook->inertia_kgm2 / (arm * arm);
     const double v = model->landing.sink_speed_mps;
     const double depth = pow(1.25 * mass * v * v / contact.stiffness, 0.4);
     return damped_step(1.5 * contact.stiffness * sqrt(depth),
@@ -62,6 +66,9 @@ int bt_airframe_stable_steps(const bt_model_params* model, bt_stable_step* steps
     const double nose_kg = nose->piston_mass_kg + nose->wheel_mass_kg;
     const double main_kg = main_gear->piston_mass_kg + main_gear->wheel_mass_kg;
     const double lever = hook->damper_lever_m;
+    bt_shank shank;
+    bt_shank_prepare(hook, &shank);
+    const double about_pivot = shank.bends ? bt_shank_root_inertia(&shank) : hook->inertia_kgm2;
     const double flight_s = solver->airframe_step_s;
     const double contact_s = fmin(solver->contact_step_s, flight_s);
     const bt_stable_step all[] = {
@@ -73,10 +80,11 @@ int bt_airframe_stable_steps(const bt_model_params* model, bt_stable_step* steps
         {"aircraft.main_gear.tyre", airframe, step_of(tyre_slope(&main_gear->tyre), main_kg),
          flight_s},
         {"aircraft.hook.damper", contact,
-         step_of(hook->damper.stop_stiffness_Npm * lever * lever, hook->inertia_kgm2), contact_s},
+         step_of(hook->damper.stop_stiffness_Npm * lever * lever, about_pivot), contact_s},
         {"aircraft.hook.deck_contact", contact, shoe_step(model), contact_s},
+        {"aircraft.hook.shank", airframe, 2 / sqrt(bt_shank_frequency2(&shank)), flight_s},
     };
-    const int count = (int)(sizeof all / sizeof all[0]);
+    const int count = (int)(sizeof all / sizeof all[0]) - !shank.bends;
     for (int i = 0; i < count; ++i)
         steps[i] = all[i];
     return count;

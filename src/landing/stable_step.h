@@ -19,7 +19,10 @@ enum { BT_STABLE_STEP_MAX = 12 };
 ///
 /// struts     k_l of Eq. 5 on piston and wheel
 /// tyres      slope of the load curve at a deflection of a tenth of the radius, on piston and wheel
-/// down stop  k r^2 on the hook's inertia about its pivot, r the damper's lever
+/// shank      of its sprung joint, the root free about the pivot (a shank that bends)
+/// down stop  k r^2 on the inertia about the pivot of the hook, or of its root where it bends; r
+/// the
+///            damper's lever
 /// shoe       slope 3/2 K delta^1/2 of Eq. 10 at the depth of an impact at the sinking velocity,
 ///            delta = (5 m v^2 / (4 K))^(2/5), m the hook's mass as felt at the shoe, and its
 ///            damping c = lambda K delta^3/2, which shortens the step to h: omega^2 h^2 + 2 (c / m)

@@ -26,6 +26,10 @@ static void write_bounces(bt_json* json, const bt_landing_result* result) {
     bt_json_end_array(json);
 }
 
+static const char* hook_loads(const bt_landing_result* result) {
+    return result->shank_bends ? "uncalibrated, shank bends" : "uncalibrated, rigid shank";
+}
+
 void bt_landing_write_json(bt_json* json, const bt_landing_result* result) {
     char hash[24];
     snprintf(hash, sizeof hash, "%016" PRIx64, result->state_hash);
@@ -38,6 +42,9 @@ void bt_landing_write_json(bt_json* json, const bt_landing_result* result) {
     bt_json_number(json, "time_of_contact_s", result->time_of_contact_s);
     write_bounces(json, result);
     bt_json_number(json, "hook_deck_force_peak_N", result->hook_deck_force_peak_N);
+    bt_json_string(json, "hook_loads", hook_loads(result));
+    if (result->outcome == BT_ENGAGED)
+        bt_json_number(json, "engaged_loads_valid_s", BT_ENGAGED_LOADS_VALID_S);
     write_legs(json, "strut_stroke_max_m", result->strut_stroke_max_m);
     write_legs(json, "tyre_force_max_N", result->tyre_force_max_N);
     bt_json_number(json, "cable_tension_max_N", result->cable_tension_max_N);
@@ -99,7 +106,8 @@ void bt_landing_print(FILE* out, const bt_landing_result* result) {
                 1e3 * bounce->height_m, bounce->distance_m, 1e-3 * bounce->impact_force_N,
                 bounce->complete ? "" : " (the run ended in the air)");
     }
-    fprintf(out, "hook on deck   %.0f kN peak\n", 1e-3 * result->hook_deck_force_peak_N);
+    fprintf(out, "hook on deck   %.0f kN peak (%s)\n", 1e-3 * result->hook_deck_force_peak_N,
+            hook_loads(result));
     fprintf(out, "strut stroke   nose %.0f, left %.0f, right %.0f mm\n",
             1e3 * result->strut_stroke_max_m[BT_LEG_NOSE],
             1e3 * result->strut_stroke_max_m[BT_LEG_LEFT],
@@ -109,6 +117,11 @@ void bt_landing_print(FILE* out, const bt_landing_result* result) {
             1e-3 * result->tyre_force_max_N[BT_LEG_LEFT],
             1e-3 * result->tyre_force_max_N[BT_LEG_RIGHT]);
     fprintf(out, "cable tension  %.1f kN peak\n", 1e-3 * result->cable_tension_max_N);
+    if (result->outcome == BT_ENGAGED)
+        fprintf(out,
+                "loads          of an engaged hook hold for %.0f ms after the catch: no arresting "
+                "engine pays out\n",
+                1e3 * BT_ENGAGED_LOADS_VALID_S);
     fprintf(
         out,
         "ended          %.3f s %s first contact, computed in %.0f ms (%lld airframe steps, %lld "
