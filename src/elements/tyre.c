@@ -463,7 +463,9 @@ static void add_bridge(sums* share, double area, double u, double w, double g_u,
 }
 
 /// The carcass over one rope: what it adds to the rope's share it takes in part from the deck's;
-/// all of it where the rope alone presses in more: it then holds the tread off the deck.
+/// all of it where the rope alone presses in more: it then holds the tread off the deck. Where the
+/// tread comes down, the deck carries what it adds and takes as much from the rope, up to its
+/// share.
 static void bridge_circle(const bt_tyre* tyre, const ground* g, const bt_bump* b, sums* deck,
                           sums* share) {
     const double away = hypot(b->u_m, b->w_m), r = b->size_m, big = g->radius;
@@ -479,10 +481,10 @@ static void bridge_circle(const bt_tyre* tyre, const ground* g, const bt_bump* b
     if (level > 0) {
         const double alone = bt_carcass_over_cylinder(tyre->bridging, rho, depth, 0).above_m2 -
                              bt_carcass_over_cylinder(0, rho, depth, 0).above_m2;
-        if (alone > deck->area + added) {
-            more = alone;
-            from_deck = deck->area;
-        }
+        const double beyond = fmax(deck->area + added - alone, 0);
+        const double on_deck = fmin(deck->area - from_deck, 2 * beyond);
+        more = fmax(added, alone - deck->area) + deck->area - on_deck;
+        from_deck = deck->area - on_deck;
     }
     const double n_u = -b->u_m / away, n_w = -b->w_m / away;
     add_bridge(deck, -from_deck, 0, -g->height, 0, 1);
