@@ -13,6 +13,7 @@ typedef struct bt_cable_slide {
     double limit_N;        ///< friction coefficient times normal force
     double slip_speed_mps; ///< sliding speed at which friction is fully developed
     double force_N[3];     ///< result: friction on the rope
+    double arm_m[3];       ///< result: from the segment's centre to the point
 } bt_cable_slide;
 
 /// Finds the friction at `count` points and adds it to the loads of the cable, one point after the
@@ -34,5 +35,9 @@ typedef struct bt_cable_slide {
 /// @return the work of all these frictions during the kick, J, <= 0
 double bt_cable_slides(const bt_cable_model* model, bt_cable_state* cable, double step_s,
                        bt_cable_slide* slides, int count);
+
+/// Power of the frictions found last, at the velocities that the cable has now, W. For audits: its
+/// mean before and after bt_cable_advance, times the kick, is their work.
+double bt_cable_slides_power(const bt_cable_state* cable, const bt_cable_slide* slides, int count);
 
 #endif

@@ -92,11 +92,12 @@ static void note_slide(bt_slides* slides, const bt_cable_model* model, bt_cable_
 
 void bt_slides_resolve(bt_slides* slides, const bt_cable_model* model, bt_cable_state* cable,
                        double step_s) {
-    slides->work_J += bt_cable_slides(model, cable, step_s, slides->at, slides->count);
+    bt_cable_slides(model, cable, step_s, slides->at, slides->count);
     for (int k = 0; k < slides->count; ++k) {
         const double* f = slides->at[k].force_N;
         push_body(slides->body[k], (double[]){-f[0], -f[1], -f[2]}, slides->at[k].point_m, step_s);
     }
+    slides->resolved = slides->count;
     slides->count = 0;
 }
 

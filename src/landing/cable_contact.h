@@ -30,8 +30,8 @@ void bt_moving_body_to(bt_moving_body* body, double after_s);
 
 /// Where wheels and hook slide over the cable in one cable step.
 typedef struct bt_slides {
-    int count;
-    double work_J; ///< of all friction so far, J: never rises
+    int count;    ///< noted
+    int resolved; ///< of `at`, from the start: those of the last bt_slides_resolve
     bt_cable_slide at[BT_SLIDES_MAX];
     bt_moving_body* body[BT_SLIDES_MAX];
 } bt_slides;

@@ -30,6 +30,12 @@ struct bt_lander {
     double segment_m[BT_CABLE_SEGMENTS_MAX];
 };
 
+/// Works at the contacts of wheels and hook with the cable, J.
+typedef struct works {
+    double on_cable, friction,
+        friction_most; ///< so far; of friction in one cable step, the largest
+} works;
+
 /// One run: what changes while a landing is computed, beside the states.
 typedef struct run {
     bt_lander* lander;
@@ -42,6 +48,8 @@ typedef struct run {
     bt_slides slides;
     double clearance_m[BT_LEG_COUNT + 1]; ///< of wheels and hook from the cable; last: the hook
     double tension_N[BT_CABLE_SEGMENTS_MAX];
+    bool observed; ///< somebody looks: the works are worth their time
+    works works;
     bool awake;     ///< the cable has left its equilibrium
     bool loaded;    ///< wheels or hook have put loads on the cable
     bool hook_near; ///< the hook may have touched the cable in this step
@@ -263,6 +271,28 @@ static void give_back(const bt_moving_body* part, double step_s, double* applied
     }
 }
 
+/// The rest of a cable step; with the works of what touches it, by the mean of the velocities
+/// before and after, when somebody looks.
+static void advance_cable(run* r, double step_s) {
+    const bt_cable_model* model = &r->lander->cable_model;
+    bt_cable_state* cable = &r->lander->cable;
+    if (!r->observed || !r->loaded) {
+        bt_cable_advance(model, cable, step_s);
+        return;
+    }
+    const bt_slides* slides = &r->slides;
+    const double half_s = 0.25 * (cable->scalars->last_step_s + step_s);
+    double on_cable = bt_cable_load_power(model, cable);
+    double friction = bt_cable_slides_power(cable, slides->at, slides->resolved);
+    bt_cable_advance(model, cable, step_s);
+    on_cable += bt_cable_load_power(model, cable);
+    friction += bt_cable_slides_power(cable, slides->at, slides->resolved);
+    r->works.on_cable += half_s * on_cable;
+    r->works.friction += half_s * friction;
+    if (slides->resolved > 0)
+        r->works.friction_most = fmax(r->works.friction_most, half_s * friction);
+}
+
 /// The cable's own steps within one airframe step. It sleeps in its equilibrium until something
 /// can touch it.
 static void step_cable(run* r, double step_s) {
@@ -300,7 +330,7 @@ static void step_cable(run* r, double step_s) {
                              r->hook_contact.cable_m);
         }
         bt_slides_resolve(&r->slides, &l->cable_model, &l->cable, sub_s);
-        bt_cable_advance(&l->cable_model, &l->cable, sub_s);
+        advance_cable(r, sub_s);
         ++r->result->cable_steps;
     }
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
@@ -365,12 +395,17 @@ static void show(run* r, bt_landing_observer* observer, void* user, bool last) {
         .hook_height_m = leg_output(r, f->shoe, BT_SHOE_HEIGHT),
         .hook_deck_force_N = leg_output(r, f->shoe, BT_SHOE_FORCE),
         .hook_damper_force_N = leg_output(r, f->damper, BT_HOOK_HOLD_FORCE),
+        .cable_wrench = s->applied,
+        .cable_work_J = r->works.on_cable,
+        .friction_J = r->works.friction,
+        .friction_most_J = r->works.friction_most,
         .cable_awake = r->awake,
         .cable_count = l->cable_model.count,
         .cable_x = l->cable.x,
         .cable_y = l->cable.y,
         .cable_z = l->cable.z,
         .cable_tension_N = r->tension_N,
+        .run = r,
     };
     const bt_motion motion = {.time_s = s->time_s, .q = s->q, .v = s->v, .rotation = s->rotation};
     const bt_shoe* shoe = &f->shoe_contact;
@@ -401,6 +436,13 @@ static void show(run* r, bt_landing_observer* observer, void* user, bool last) {
     observer(user, &view);
 }
 
+double bt_landing_cable_energy(const bt_landing_view* view) {
+    const run* r = view->run;
+    bt_cable_energy energy;
+    bt_cable_audit(&r->lander->cable_model, &r->lander->cable, &energy);
+    return energy.kinetic_J + energy.elastic_J + energy.gravity_J;
+}
+
 /// The run is over: caught and held a little, past the cable, or out of reach of it.
 static bool over(const run* r) {
     const bt_landing_params* p = &r->params->landing;
@@ -408,8 +450,7 @@ static bool over(const run* r) {
     if (bt_tracker_caught(&r->tracker))
         return now >= r->tracker.catch_s + p->solver.after_catch_s;
     const double past_m = r->hook_contact.lip_m[0] - r->hook_contact.cable_m[0];
-    static const double carried_most_m = 10; // a cable that rides on the arm and never slides home
-    return past_m >= p->solver.past_cable_m || r->hook_contact.lip_m[0] >= carried_most_m;
+    return past_m >= p->solver.past_cable_m || r->hook_contact.lip_m[0] >= BT_PAST_CABLE_MOST_M;
 }
 
 static bool fail(run* r, const char* element, const char* quantity, double time_s) {
@@ -470,7 +511,11 @@ bt_status bt_lander_run(bt_lander* lander, const bt_model_params* params, bt_lan
     lander->built = *params; // also when the cable is refused: the airframe may be a new one
     BT_TRY(status);
 
-    run r = {.lander = lander, .params = params, .result = result};
+    run r = {.lander = lander,
+             .params = params,
+             .result = result,
+             .observed = observer != NULL,
+             .works = {.friction_most = -INFINITY}};
     start(&r);
     result->shank_bends = lander->airframe.shank.bends;
     bool sound = bt_system_project(lander->airframe.system, &lander->state, &r.failure) == BT_OK &&

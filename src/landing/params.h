@@ -49,9 +49,9 @@ BT_DECLARE_GROUP(hook_profile, BT_HOOK_PROFILE_FIELDS)
     F(PLAIN, damping_ratio, _, OPTIONAL, 0.2, 0, 2, "",                                            \
       "contact damping of critical, cable against a fixed hook [assumed]")                         \
     F(PLAIN, friction, _, OPTIONAL, 0.2, 0, 2, "", "Coulomb friction, rope on steel")              \
-    F(REAL, slip_speed, mps, OPTIONAL, 1.0, 1e-4, 10, "",                                          \
-      "sliding speed at which friction is fully developed, also of the tyres on the cable; a "     \
-      "smaller one makes outcomes hang on the step [assumed]")
+    F(REAL, slip_speed, mps, OPTIONAL, 0.1, 1e-4, 10, "",                                          \
+      "sliding speed at which friction is fully developed, also of the tyres on the cable "        \
+      "[assumed; a smaller one changes no outcome]")
 BT_DECLARE_GROUP(hook_cable, BT_HOOK_CABLE_FIELDS)
 
 #define BT_HOOK_FIELDS(F)                                                                          \
@@ -109,6 +109,10 @@ BT_DECLARE_GROUP(aircraft, BT_AIRCRAFT_FIELDS)
     F(GROUP, cable, cable, REQUIRED, 0, 0, 0, "Eqs. 11-17", "the arresting cable and what holds it")
 BT_DECLARE_GROUP(deck, BT_DECK_FIELDS)
 
+/// Every run ends when the lip is this far past where the cable lay, m: a cable may ride on the arm
+/// and never slide home.
+#define BT_PAST_CABLE_MOST_M 10
+
 #define BT_SOLVER_FIELDS(F)                                                                        \
     F(REAL, airframe_step, s, OPTIONAL, 4e-4, 1e-7, 1e-2, "",                                      \
       "step of the airframe in flight; half of it while the hook slides on the deck")              \
@@ -118,8 +122,9 @@ BT_DECLARE_GROUP(deck, BT_DECK_FIELDS)
     F(PLAIN, cable_courant, _, OPTIONAL, 0.97, 0.05, 1, "", "cable step over its stable step")     \
     F(COUNT, tyre_strips, _, OPTIONAL, 16, 4, 2000, "Eqs. 6-7",                                    \
       "narrow strips of a tyre's disc over the cable's part of the contact patch")                 \
-    F(REAL, past_cable, m, OPTIONAL, 1.0, 0.05, 50, "Eq. 18",                                      \
-      "the run ends when the hook point is this far past the cable")                               \
+    F(REAL, past_cable, m, OPTIONAL, 1.0, 0.05, BT_PAST_CABLE_MOST_M, "Eq. 18",                    \
+      "the run ends when the hook point is this far past the cable; in any case 10 m past where "  \
+      "the cable lay")                                                                             \
     F(REAL, after_catch, s, OPTIONAL, 5e-3, 0, 1, "Eq. 18",                                        \
       "or this long after the throat has caught it; loads hold for the first 50 ms, since no "     \
       "arresting engine pays out")

@@ -42,10 +42,21 @@ typedef struct bt_landing_view {
     double zone_force_N[BT_ZONE_COUNT];      ///< normal force of the cable on the zones of the head
     double energy_J;                         ///< of the airframe: kinetic, gravity, springs
 
+    // what passes between the cable and wheels and hook
+    const double* cable_wrench; ///< [6 * BT_BODY_COUNT] on the bodies, mean of the last step: N in
+                                ///< the world, N m in the body
+    double cable_work_J;        ///< on the cable, so far
+    double friction_J;          ///< work of friction on both, so far: it never rises
+    double friction_most_J;     ///< the largest of one cable step, so far; -INFINITY before any
+
     bool cable_awake; ///< false while it still lies in its equilibrium
     int cable_count;
     const double *cable_x, *cable_y, *cable_z; ///< [cable_count] centres of the segments
     const double* cable_tension_N;             ///< [cable_count - 1] between neighbours
+    const void* run; ///< for bt_landing_cable_energy
 } bt_landing_view;
+
+/// Energy of the cable, its supports and deck contact, J: kinetic, elastic and gravity.
+double bt_landing_cable_energy(const bt_landing_view* view);
 
 #endif

@@ -102,6 +102,95 @@ static void energy_never_rises_before_the_cable(void** state) {
     check_energy(1e6, "the same, shank of 1 MN m^2");
 }
 
+/* ---- energy, the cable included ---- */
+
+/// What airframe and cable have lost otherwise than to each other: their energy at the start and
+/// what they gained at the contacts, less what they have.
+typedef struct ledger {
+    double airframe_start_J, cable_start_J;
+    double on_airframe_J, on_cable_J, friction_J; ///< works of the contacts so far
+    double airframe_lost_J, cable_lost_J;
+    double airframe_given_J, cable_given_J; ///< the most that they came back by
+    double last_s, v[6 * BT_BODY_COUNT];
+    bool begun;
+} ledger;
+
+static void see_ledger(void* user, const bt_landing_view* view) {
+    ledger* b = user;
+    const double cable_J = bt_landing_cable_energy(view);
+    if (!b->begun) {
+        b->airframe_start_J = view->energy_J;
+        b->cable_start_J = cable_J;
+    } else // a constant wrench during the step
+        for (int k = 0; k < 6 * BT_BODY_COUNT; ++k)
+            b->on_airframe_J +=
+                (view->time_s - b->last_s) * view->cable_wrench[k] * 0.5 * (view->v[k] + b->v[k]);
+    b->begun = true;
+    b->last_s = view->time_s;
+    memcpy(b->v, view->v, sizeof b->v);
+    b->on_cable_J = view->cable_work_J;
+    b->friction_J = view->friction_J;
+
+    const double airframe_lost_J = b->airframe_start_J + b->on_airframe_J - view->energy_J;
+    const double cable_lost_J = b->cable_start_J + b->on_cable_J - cable_J;
+    b->airframe_given_J = fmax(b->airframe_given_J, b->airframe_lost_J - airframe_lost_J);
+    b->cable_given_J = fmax(b->cable_given_J, b->cable_lost_J - cable_lost_J);
+    b->airframe_lost_J = fmax(b->airframe_lost_J, airframe_lost_J);
+    b->cable_lost_J = fmax(b->cable_lost_J, cable_lost_J);
+}
+
+/// A miss over the top, a catch, and a miss under wheels that have beaten the cable down.
+static const double met_at_m[] = {2, 5.5, 8};
+
+/// No damper, no friction and no loss on the deck in the cable: then all that the contacts give it
+/// is in it. And what cable and airframe get together is negative, by friction and more.
+static void without_dampers_the_cable_keeps_what_the_contacts_give_it(void** state) {
+    (void)state;
+    bt_model_params model =
+        REFERENCE("deck.cable.axial_damping=0 N*s", "deck.cable.bending_damping=0 N*m2*s",
+                  "deck.cable.twist_damping=0 N*m2*s", "deck.cable.supports.damping=0 N*s/m",
+                  "deck.cable.sheaves.purchase_damping=0 N*s/m", "deck.cable.deck.friction=0",
+                  "deck.cable.deck.restitution=1", "landing.solver.cable_courant=0.1");
+    bt_lander* lander = new_lander();
+    for (int k = 0; k < 3; ++k) {
+        ledger b = {.begun = false};
+        model.landing.distance_m = met_at_m[k];
+        land(lander, &model, see_ledger, &b);
+        assert_true(b.on_cable_J > 1e3);
+        char text[80];
+        snprintf(text, sizeof text, "undamped cable: energy lost over work done on it, D %g m",
+                 met_at_m[k]);
+        BT_VERIFY("landing", text, fmax(fabs(b.cable_lost_J), b.cable_given_J) / b.on_cable_J, 0,
+                  1e-3, "conservation");
+        assert_true(b.friction_J < 0);
+        assert_true(b.on_airframe_J + b.on_cable_J < b.friction_J);
+    }
+    bt_lander_destroy(lander);
+}
+
+/// As it is, with all dampers and frictions: what is lost never comes back, in the cable within the
+/// error of its step.
+static void with_the_cable_too_nothing_gives_energy(void** state) {
+    (void)state;
+    bt_model_params model = REFERENCE("landing.solver.cable_courant=0.25");
+    bt_lander* lander = new_lander();
+    for (int k = 0; k < 3; ++k) {
+        ledger b = {.begun = false};
+        model.landing.distance_m = met_at_m[k];
+        land(lander, &model, see_ledger, &b);
+        char text[80];
+        snprintf(text, sizeof text, "largest gain of the airframe over its losses, D %g m",
+                 met_at_m[k]);
+        BT_VERIFY("landing", text, b.airframe_given_J / b.airframe_lost_J, 0, 1e-11, "dissipation");
+        snprintf(text, sizeof text, "largest gain of the cable over the work on it, D %g m",
+                 met_at_m[k]);
+        BT_VERIFY("landing", text, b.cable_given_J / b.on_cable_J, 0, 1e-3, "dissipation");
+        assert_true(b.friction_J < 0);
+        assert_true(b.on_airframe_J + b.on_cable_J < b.friction_J);
+    }
+    bt_lander_destroy(lander);
+}
+
 /* ---- the hook's free body ---- */
 
 typedef struct free_body {
@@ -211,6 +300,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(vertical_momentum_is_the_impulse_of_deck_on_tyres_and_hook),
         cmocka_unit_test(energy_never_rises_before_the_cable),
+        cmocka_unit_test(without_dampers_the_cable_keeps_what_the_contacts_give_it),
+        cmocka_unit_test(with_the_cable_too_nothing_gives_energy),
         cmocka_unit_test(in_the_air_pivot_damper_and_weight_move_the_hook),
         cmocka_unit_test(the_bounce_converges_at_second_order),
     };

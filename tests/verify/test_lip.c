@@ -27,6 +27,14 @@ static bt_moving_body hook_over(const bt_hook_contact* contact, double x, double
     return hook;
 }
 
+/// World point of the lip's centre.
+static void lip_centre(const bt_hook_contact* contact, const bt_moving_body* hook, double at[3]) {
+    const double local[3] = {contact->shoe_m[0] + contact->profile->lip[0], 0,
+                             contact->profile->lip[1]};
+    bt_rotate(hook->rotation, local, at);
+    bt_add_scaled(at, 1, hook->position_m);
+}
+
 /// A piece of rope does not tilt here, the rest of the rope is long and holds it; but it spins.
 static void hold_axis(rope* r) {
     for (int i = 0; i < r->model.count; ++i) {
@@ -79,12 +87,12 @@ static where push(const bt_hook_profile_params* head, double friction, double ho
                                .hint = -1};
     bt_moving_body hook = hook_over(&contact, 0, hook_m);
     // the lip close behind the rope
-    double head_point[3], local[3] = {contact.shoe_m[0] + profile.lip[0], 0, profile.lip[1]};
-    bt_rotate(hook.rotation, local, head_point);
-    const double rise = hook.position_m[2] + head_point[2] - cable_m;
+    double lip[3];
+    lip_centre(&contact, &hook, lip);
+    const double rise = lip[2] - cable_m;
     const double reach = profile.lip_radius + radius_m;
     const double behind = fabs(rise) < reach ? sqrt(reach * reach - rise * rise) : 0;
-    hook = hook_over(&contact, -behind - 1e-5 - (hook.position_m[0] + head_point[0]), hook_m);
+    hook = hook_over(&contact, -behind - 1e-5 - lip[0], hook_m);
     hook.velocity_mps[0] = speed;
 
     where end = HELD;
@@ -132,6 +140,77 @@ static void it_is_scooped_when_the_lip_lies_below_its_centre(void** state) {
                 }
 }
 
+/* ---- at landing speed ---- */
+
+/// Drives the head level through the middle of the arresting cable at rest, its lip below the
+/// cable's centre by rise_m.
+static where drive(double friction, double rise_m) {
+    static const double speed_mps = 47.5, far_m = 0.3;
+    static double segment_m[BT_CABLE_SEGMENTS_MAX];
+    static bt_slides slides;
+    const bt_model_params model = reference_model(NULL, 0);
+    const bt_hook_profile_params* head = &model.aircraft.hook.profile;
+    bt_cable_def def;
+    rope r;
+    bt_cable_def_init(&def, &model.deck.cable, model.deck.gravity_mps2, segment_m);
+    rope_open_mesh(&r, &def, segment_m);
+    assert_int_equal(bt_cable_equilibrium(&r.model, &r.state, NULL, NULL), BT_OK);
+    double middle[3];
+    assert_true(bt_cable_centreline(&r.model, &r.state, 0, -1, middle, NULL, NULL) >= 0);
+
+    bt_profile profile;
+    assert_int_equal(bt_profile_build(head, 2.352, radius_m, "head", &profile, NULL), BT_OK);
+    bt_hook_contact contact = {.profile = &profile,
+                               .shoe_m = {-1.059, 0, 0},
+                               .stiffness = 5e8,
+                               .damping = 2e4,
+                               .friction = friction,
+                               .slip_speed_mps = 0.1,
+                               .hint = -1};
+    bt_moving_body hook = hook_over(&contact, 0, middle[2] - rise_m - head->lip_height_m);
+    double lip[3];
+    lip_centre(&contact, &hook, lip);
+    BT_ASSERT_NEAR(middle[2] - lip[2], rise_m, 0, 1e-9);
+    hook.position_m[0] -= lip[0] + 0.03;
+    hook.velocity_mps[0] = speed_mps;
+
+    where end = HELD;
+    for (double t = 0; end == HELD; t += step_s) {
+        assert_true(speed_mps * t < 10 * far_m);
+        bt_moving_body_to(&hook, t);
+        bt_cable_clear_loads(&r.model, &r.state);
+        bt_cable_forces(&r.model, &r.state);
+        bt_hook_contact_press(&contact, &r.model, &r.state, &hook, &slides, step_s);
+        bt_slides_resolve(&slides, &r.model, &r.state, step_s);
+        bt_cable_advance(&r.model, &r.state, step_s);
+        if (contact.lip_m[0] > contact.cable_m[0])
+            end = contact.cable_m[2] > contact.lip_m[2] ? SCOOPED : UNDER;
+    }
+    rope_close(&r);
+    return end;
+}
+
+/// The rope flies ahead of the lip, comes back and is carried, and rolls off on the side on which
+/// it was met.
+static void at_landing_speed_too_the_centres_decide(void** state) {
+    (void)state;
+    static const double frictions[] = {0, 0.1, 0.2, 0.4};
+    for (int f = 0; f < 4; ++f) {
+        double under = -5e-3, scooped = 5e-3;
+        while (scooped - under > 1e-5) {
+            const double rise = 0.5 * (under + scooped);
+            if (drive(frictions[f], rise) == SCOOPED)
+                scooped = rise;
+            else
+                under = rise;
+        }
+        char text[80];
+        snprintf(text, sizeof text, "height of rope over lip where it is scooped, mu %g, m",
+                 frictions[f]);
+        BT_VERIFY("lip criterion", text, scooped, 0, 1e-4, "level centres");
+    }
+}
+
 /* ---- from sliding to rolling ---- */
 
 /// A free rope thrown at the lip, half along it: friction stops the slip within the impact and
@@ -154,9 +233,7 @@ static void thrown_along_the_lip_it_keeps_two_thirds(void** state) {
                                    .hint = -1};
         bt_moving_body hook = hook_over(&contact, 0, 0.3);
         double lip[3];
-        const double local[3] = {contact.shoe_m[0] + profile.lip[0], 0, profile.lip[1]};
-        bt_rotate(hook.rotation, local, lip);
-        bt_add_scaled(lip, 1, hook.position_m);
+        lip_centre(&contact, &hook, lip);
         const double reach = profile.lip_radius + radius_m;
         rope r;
         lay(&r, lip[0] + reach + 1e-5, lip[2]);
@@ -268,6 +345,7 @@ static void a_steep_head_catches_by_the_arm_and_a_facing_one_directly(void** sta
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_is_scooped_when_the_lip_lies_below_its_centre),
+        cmocka_unit_test(at_landing_speed_too_the_centres_decide),
         cmocka_unit_test(thrown_along_the_lip_it_keeps_two_thirds),
         cmocka_unit_test(a_steep_head_catches_by_the_arm_and_a_facing_one_directly),
     };
