@@ -119,6 +119,34 @@ bt_status bt_file_write(const char* path, const char* data, size_t size, bt_diag
     return fail(diag, path, "cannot write", code);
 }
 
+bt_status bt_file_refuse(const char* path, bt_diag* diag) {
+    bt_diag_add(diag, BT_ERROR, (bt_where){.file = path},
+                "not written by Bolter, so it is not replaced; move it away, or use another name "
+                "with -o");
+    return BT_ERR_IO;
+}
+
+/// Whether nothing is lost when a file goes: there is none, it is empty, or it has the mark.
+static bool may_go(const char* path, const char* mark, size_t length) {
+    char there[256];
+    struct stat info;
+    if (stat(path, &info) != 0 || info.st_size == 0)
+        return true;
+    FILE* file = S_ISREG(info.st_mode) && length <= sizeof there ? fopen(path, "rb") : NULL;
+    if (!file)
+        return false;
+    const bool same = fread(there, 1, length, file) == length && memcmp(there, mark, length) == 0;
+    fclose(file);
+    return same;
+}
+
+bt_status bt_file_replace(const char* path, const char* data, size_t size, size_t mark_length,
+                          bt_diag* diag) {
+    if (!may_go(path, data, mark_length))
+        return bt_file_refuse(path, diag);
+    return bt_file_write(path, data, size, diag);
+}
+
 static bt_status read_open(const char* path, FILE* file, char** data, size_t* size, bt_diag* diag) {
     size_t room = 65536, used = 0;
     char* text = malloc(room);

@@ -34,6 +34,15 @@ BT_CHECKED bt_status bt_file_path(char* buffer, const char* directory, const cha
 /// before stays.
 BT_CHECKED bt_status bt_file_write(const char* path, const char* data, size_t size, bt_diag* diag);
 
+/// As bt_file_write, for a place where a user may have a file of their own: what is there is
+/// replaced only when it is empty or its first `mark_length` bytes are those of `data`, the mark of
+/// what Bolter writes. BT_ERR_IO, said in diag, when it is not.
+BT_CHECKED bt_status bt_file_replace(const char* path, const char* data, size_t size,
+                                     size_t mark_length, bt_diag* diag);
+
+/// Says that a file was not written by Bolter and stays; returns BT_ERR_IO.
+bt_status bt_file_refuse(const char* path, bt_diag* diag);
+
 /// Reads a whole file into memory that the caller frees; a zero byte follows the data. size may be
 /// NULL. BT_ERR_IO, said in diag (also from 1 GiB on); BT_ERR_MEMORY.
 BT_CHECKED bt_status bt_file_read(const char* path, char** data, size_t* size, bt_diag* diag);

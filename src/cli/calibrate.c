@@ -201,7 +201,8 @@ static bt_status write_overlay(const bt_calibration* c, const bt_fit* fit, const
     char* text = NULL;
     size_t size = 0;
     BT_TRY(bt_calibration_overlay(c, fit, &text, &size));
-    const bt_status status = bt_file_write(file, text, size, diag);
+    const bt_status status =
+        bt_file_replace(file, text, size, strlen("# Calibrated by bolter"), diag);
     free(text);
     return status;
 }

@@ -29,7 +29,7 @@ static bt_status print(bt_chain* chain, int64_t total, const bt_ledger_counts* c
     uint64_t hash = 0;
     char path[BT_FILE_PATH_MAX], hash_text[24];
     BT_TRY(bt_ledger_hash(chain->ledger, &hash, &chain->diag));
-    BT_TRY(bt_chain_file(chain, BT_LEDGER_NAME, path));
+    BT_TRY(bt_study_directory_file(&chain->directory, BT_LEDGER_NAME, path));
     snprintf(hash_text, sizeof hash_text, "%016" PRIx64, hash);
     if (!chain->command->json) {
         if (!chain->command->quiet)

@@ -1,44 +1,19 @@
 #include "cli/chain.h"
 
 #include <stdio.h>
-#include <string.h>
-#include <sys/stat.h>
-
-bt_status bt_chain_file(const bt_chain* chain, const char* name, char* path) {
-    return bt_file_path(path, chain->study.directory, name);
-}
-
-/// study.yaml of the study directory; the user's own file, where it is that one, stays as it is.
-static bt_status write_study(bt_chain* chain) {
-    char path[BT_FILE_PATH_MAX];
-    struct stat given, kept;
-    BT_TRY(bt_chain_file(chain, "study.yaml", path));
-    if (stat(chain->command->words[0], &given) == 0 && stat(path, &kept) == 0 &&
-        given.st_dev == kept.st_dev && given.st_ino == kept.st_ino)
-        return BT_OK;
-    return bt_file_write(path, chain->study.text, strlen(chain->study.text), &chain->diag);
-}
-
-static bt_status open_ledger(bt_chain* chain, bt_ledger_access how) {
-    char path[BT_FILE_PATH_MAX];
-    BT_TRY(bt_chain_file(chain, BT_LEDGER_NAME, path));
-    if (how == BT_LEDGER_CREATE)
-        BT_TRY(bt_directory_open(&chain->directory, chain->study.directory, &chain->diag));
-    BT_TRY(bt_ledger_open(path, &chain->study, how, &chain->ledger, &chain->diag));
-    if (how == BT_LEDGER_WRITE)
-        BT_TRY(bt_directory_open(&chain->directory, chain->study.directory, &chain->diag));
-    return how == BT_LEDGER_READ ? BT_OK : write_study(chain);
-}
 
 bt_status bt_chain_open(const bt_command* command, bt_ledger_access how, bt_chain* chain) {
-    *chain = (bt_chain){.command = command, .directory = {.lock = -1}, .diag = bt_stderr_diag()};
+    *chain = (bt_chain){
+        .command = command, .directory = {.lock = {.lock = -1}}, .diag = bt_stderr_diag()};
     BT_TRY(bt_command_study(command, &chain->study));
-    return open_ledger(chain, how);
+    const bt_status status =
+        bt_study_directory_open(&chain->directory, &chain->study, how, &chain->diag);
+    chain->ledger = chain->directory.ledger;
+    return status;
 }
 
 void bt_chain_close(bt_chain* chain) {
-    bt_ledger_close(chain->ledger);
-    bt_directory_close(&chain->directory);
+    bt_study_directory_close(&chain->directory);
     bt_study_destroy(&chain->study);
 }
 
@@ -59,8 +34,7 @@ bt_status bt_chain_campaign(bt_chain* chain, int shard, int shards,
     bt_progress line = bt_progress_start("campaign", chain->command->quiet || chain->command->json);
     const bt_campaign_options options = {
         .shard = shard, .shards = shards, .stop = &bt_interrupted, .watch = show, .user = &line};
-    const bt_status status =
-        bt_campaign_run(&chain->study, chain->ledger, &options, progress, &chain->diag);
+    const bt_status status = bt_stage_campaign(&chain->directory, &options, progress);
     char took[32];
     bt_duration_text(progress->seconds, took, sizeof took);
     const int64_t fresh = progress->done - progress->before;

@@ -1,77 +1,36 @@
 #include "cli/chain.h"
+#include "report/table.h"
 
-#include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-/// What a fit depends on, as a text: landings and settings.
-static bt_status fit_key(bt_chain* chain, char* text, size_t size) {
-    uint64_t hash = 0;
-    BT_TRY(bt_ledger_hash(chain->ledger, &hash, &chain->diag));
-    const bt_surrogate_params* p = &chain->study.surrogate;
-    FILE* out = fmemopen(text, size, "w");
-    if (!out)
-        return BT_ERR_MEMORY;
-    fprintf(out, "weighted by loss %016" PRIx64 " folds %lld holdout %a C", hash, (long long)p->folds,
-            p->holdout);
-    for (int i = 0; i < p->C.count; ++i)
-        fprintf(out, " %a", p->C.value[i]);
-    fprintf(out, " gamma");
-    for (int i = 0; i < p->gamma.count; ++i)
-        fprintf(out, " %a", p->gamma.value[i]);
-    return fclose(out) == 0 ? BT_OK : BT_ERR_INTERNAL;
-}
-
-/// The model on disk, if it is the one that the landings and settings give.
-static bool load_current(bt_chain* chain, const char* key, const char* path,
-                         bt_surrogate* surrogate) {
-    char* stored = bt_ledger_remark(chain->ledger, "fit");
-    const bool same = stored && strcmp(stored, key) == 0;
-    free(stored);
-    return same && bt_surrogate_load(path, surrogate, NULL) == BT_OK;
-}
-
-static bt_status train(bt_chain* chain, const char* path, bt_surrogate* surrogate) {
-    const bt_study* study = &chain->study;
-    const bt_axes axes = bt_design_axes(study);
-    bt_labels labels;
-    BT_TRY(bt_labels_read(chain->ledger, axes.count, &labels, &chain->diag));
-    const bt_training_set set = {
-        .dims = axes.count, .count = labels.count, .x = labels.x, .label = labels.label};
-    bt_status status =
-        bt_surrogate_train(&set, &study->surrogate, (uint64_t)study->campaign.seed,
-                           (int)study->campaign.threads, surrogate, NULL, &chain->diag);
-    bt_labels_destroy(&labels);
-    if (status != BT_OK)
-        return status;
-    for (int i = 0; i < axes.count; ++i)
-        memcpy(surrogate->path[i], study->inputs[axes.input[i]].path, BT_PATH_MAX);
-    surrogate->study_hash = study->hash;
-    status = bt_surrogate_save(surrogate, path, &chain->diag);
-    if (status != BT_OK)
-        bt_surrogate_destroy(surrogate);
-    return status;
-}
-
-bt_status bt_chain_fit(bt_chain* chain, bool again, bt_surrogate* surrogate, bool* fresh) {
-    char path[BT_FILE_PATH_MAX], key[4096] = "";
-    BT_TRY(bt_chain_file(chain, "surrogate.model", path));
-    BT_TRY(fit_key(chain, key, sizeof key));
-    *fresh = again || !load_current(chain, key, path, surrogate);
-    if (!*fresh)
-        return BT_OK;
-    BT_TRY(train(chain, path, surrogate));
-    const bt_status status = bt_ledger_set_remark(chain->ledger, "fit", key, &chain->diag);
-    if (status != BT_OK)
-        bt_surrogate_destroy(surrogate);
-    return status;
+static void print_holdout(FILE* out, const bt_surrogate_scores* scores) {
+    char count[32];
+    if (scores->holdout_count == 0) {
+        fprintf(out, "hold-out      none: too few landings to keep any apart, so the accuracy is "
+                     "not known\n");
+        return;
+    }
+    const bt_interval ci95 = {100 * scores->holdout_ci95.least,
+                              100 * scores->holdout_ci95.greatest};
+    const double accuracy = 100 * bt_surrogate_holdout_accuracy(scores);
+    const int n = bt_interval_decimals(accuracy, &ci95, 2);
+    fprintf(out,
+            "hold-out      correct on %.*f %% of %s held-out landings, 95 %% interval %.*f to "
+            "%.*f %%\n",
+            n, accuracy, bt_count_text(scores->holdout_count, count), n, ci95.least, n,
+            ci95.greatest);
+    fprintf(out,
+            "confusion     engaged: %d correct, %d predicted missed; missed: %d correct, %d "
+            "predicted engaged\n",
+            scores->confusion[1][1], scores->confusion[1][0], scores->confusion[0][0],
+            scores->confusion[0][1]);
 }
 
 void bt_surrogate_print(FILE* out, const bt_surrogate* s) {
     const bt_surrogate_scores* scores = &s->scores;
+    char count[32];
     if (s->constant)
-        fprintf(out, "surrogate     all landings are of one kind: it always answers the same\n");
+        fprintf(out, "surrogate     all landings have the same outcome: so has every prediction\n");
     else
         fprintf(out, "surrogate     C %g, gamma %g, %d support vectors, %.1f s\n", s->C, s->gamma,
                 s->sv_count, scores->seconds);
@@ -79,18 +38,11 @@ void bt_surrogate_print(FILE* out, const bt_surrogate* s) {
     for (int k = 0; k < s->dims; ++k)
         fprintf(out, "%s %s %g", k ? "," : "", s->path[k], s->weight[k]);
     fprintf(out, "\n");
-    fprintf(
-        out,
-        "hold-out      %.2f %% of %d landings it never saw right, 95 %% interval %.2f .. %.2f %%\n",
-        100 * bt_surrogate_holdout_accuracy(scores), scores->holdout_count,
-        100 * scores->holdout_ci95.least, 100 * scores->holdout_ci95.greatest);
-    fprintf(out, "training      %.2f %% of %d (its own points: no evidence of accuracy)\n",
-            100 * bt_surrogate_train_accuracy(scores), scores->train_count);
+    print_holdout(out, scores);
     fprintf(out,
-            "confusion     engaged: %d right, %d taken for missed; missed: %d right, %d taken for "
-            "engaged\n",
-            scores->confusion[1][1], scores->confusion[1][0], scores->confusion[0][0],
-            scores->confusion[0][1]);
+            "training      correct on %.2f %% of %s training landings (no evidence of "
+            "accuracy)\n",
+            100 * bt_surrogate_train_accuracy(scores), bt_count_text(scores->train_count, count));
 }
 
 static void write_json(const bt_surrogate* s) {
@@ -125,8 +77,7 @@ static void write_json(const bt_surrogate* s) {
 
 static bt_status fit(bt_chain* chain) {
     bt_surrogate surrogate;
-    bool fresh = false;
-    BT_TRY(bt_chain_fit(chain, chain->command->option[0] != NULL, &surrogate, &fresh));
+    BT_TRY(bt_stage_fit(&chain->directory, chain->command->option[0] != NULL, &surrogate, NULL));
     if (chain->command->json)
         write_json(&surrogate);
     else if (!chain->command->quiet)

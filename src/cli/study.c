@@ -16,8 +16,7 @@ static bt_status run_chain(bt_chain* chain) {
     BT_TRY(bt_chain_campaign(chain, 0, 1, &progress));
 
     bt_surrogate surrogate;
-    bool fresh = false;
-    BT_TRY(bt_chain_fit(chain, false, &surrogate, &fresh));
+    BT_TRY(bt_stage_fit(&chain->directory, false, &surrogate, NULL));
     if (talk) {
         printf("campaign      %lld landings: %lld engaged, %lld missed, %lld failed\n",
                (long long)progress.done, (long long)progress.engaged, (long long)progress.missed,

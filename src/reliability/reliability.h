@@ -94,7 +94,4 @@ BT_CHECKED bt_status bt_surrogate_classifier_create(const bt_study* study,
 void bt_surrogate_classifier_destroy(bt_surrogate_classifier* made);
 const bt_classifier* bt_surrogate_classifier_get(const bt_surrogate_classifier* made);
 
-/// The table for people, line by line, and what it means.
-void bt_reliability_print(const bt_reliability_result* result, bt_text_sink* write, void* user);
-
 #endif

@@ -267,12 +267,39 @@ static void draw(const bt_figure* figure, const char* folder, bt_diag* diag) {
                     "%s was not drawn; gnuplot said: %s", figure->name, words);
 }
 
+/// Whether the script that stands there is one that Bolter wrote.
+static bool script_is_ours(const char* path) {
+    char first[16] = "";
+    FILE* file = fopen(path, "r");
+    const bool ours =
+        file && fgets(first, sizeof first, file) && strncmp(first, "# Draws ", 8) == 0;
+    if (file)
+        fclose(file);
+    return ours;
+}
+
+/// A figure takes the place of one that Bolter drew; other files of its names stay, and are said.
+static bt_status spare_other_files(const bt_figure* figure, const char* folder, bt_diag* diag) {
+    static const char* const endings[] = {".gp", ".csv", ".png", ".svg"};
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; ++i) {
+        char name[256], path[BT_FILE_PATH_MAX];
+        snprintf(name, sizeof name, "%s%s", figure->name, endings[i]);
+        BT_TRY(bt_file_path(path, folder, name));
+        if (i == 0 && script_is_ours(path))
+            return BT_OK;
+        if (access(path, F_OK) == 0)
+            return bt_file_refuse(path, diag);
+    }
+    return BT_OK;
+}
+
 bt_status bt_figure_write(const bt_figure* figure, const char* folder, bt_diag* diag) {
     if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
         bt_diag_add(diag, BT_ERROR, (bt_where){.file = folder}, "cannot make this folder: %s",
                     strerror(errno));
         return BT_ERR_IO;
     }
+    BT_TRY(spare_other_files(figure, folder, diag));
     BT_TRY(write_text(figure, folder, ".csv", put_data, diag));
     BT_TRY(write_text(figure, folder, ".gp", put_script, diag));
     draw(figure, folder, diag);

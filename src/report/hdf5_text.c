@@ -1,6 +1,7 @@
 #include "report/hdf5_text.h"
 
 #include <string.h>
+#include <sys/stat.h>
 
 bool bt_hdf5_attribute(hid_t object, const char* name, const char* text) {
     const hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
@@ -32,4 +33,17 @@ bool bt_hdf5_text(hid_t file, const char* name, const char* text) {
     if (space >= 0)
         H5Sclose(space);
     return good;
+}
+
+bool bt_hdf5_may_go(const char* path) {
+    struct stat info;
+    if (stat(path, &info) != 0 || info.st_size == 0)
+        return true;
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // another kind of file is no error here
+    const hid_t file = S_ISREG(info.st_mode) ? H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT) : -1;
+    if (file < 0)
+        return false;
+    const bool ours = H5Aexists(file, "title") > 0 && H5Lexists(file, "study", H5P_DEFAULT) > 0;
+    H5Fclose(file);
+    return ours;
 }

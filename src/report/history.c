@@ -1,5 +1,6 @@
 #include "report/history.h"
 
+#include "base/directory.h"
 #include "report/hdf5_text.h"
 
 #include <errno.h>
@@ -224,6 +225,8 @@ bt_status bt_history_write(const bt_history* history, const char* path, const bt
                            const bt_landing_result* result, bt_diag* diag) {
     if (history->out_of_memory)
         return BT_ERR_MEMORY;
+    if (bt_study_reads(study, path) || !bt_hdf5_may_go(path))
+        return bt_file_refuse(path, diag);
     char temporary[4352];
     const int length = snprintf(temporary, sizeof temporary, "%s.%ld.new", path, (long)getpid());
     if (length < 0 || (size_t)length >= sizeof temporary)

@@ -1,11 +1,18 @@
-/// The reliability of every condition, for programs.
+/// The reliability of every condition: for people, as CSV and as JSON.
 #ifndef BT_REPORT_RELIABILITY_REPORT_H
 #define BT_REPORT_RELIABILITY_REPORT_H
 
-#include "reliability/reliability.h"
-#include "report/json.h"
+#include "pipeline/pipeline.h"
+#include "report/table.h"
 
 /// One JSON object: `conditions`, one object each, and `overall`, the study as it stands.
 void bt_reliability_write_json(bt_json* json, const bt_reliability_result* result);
+
+/// One row per condition and one for the study as it stands, with what the columns mean below.
+/// NULL when out of memory; the result must outlive it. bt_report_table_destroy.
+bt_report_table* bt_reliability_table(const bt_reliability_result* result);
+
+/// What a study directory keeps: reliability.txt, reliability.csv, reliability.json.
+extern const bt_reliability_file bt_reliability_files[];
 
 #endif

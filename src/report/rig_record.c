@@ -1,5 +1,6 @@
 #include "report/rig_record.h"
 
+#include "base/directory.h"
 #include "base/units.h"
 #include "report/hdf5_text.h"
 
@@ -131,6 +132,8 @@ bt_status bt_rig_record_write(const bt_rig_record* record, const char* path, con
                               const bt_rig_result* result, bt_diag* diag) {
     if (record->out_of_memory)
         return BT_ERR_MEMORY;
+    if (bt_study_reads(study, path) || !bt_hdf5_may_go(path))
+        return bt_file_refuse(path, diag);
     char temporary[4352];
     const int length = snprintf(temporary, sizeof temporary, "%s.%ld.new", path, (long)getpid());
     if (length < 0 || (size_t)length >= sizeof temporary)

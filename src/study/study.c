@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { PATH_SIZE = 4096 };
 
@@ -36,6 +37,33 @@ static const char* keep_name(reading* r, const char* name) {
 }
 
 // --- files ----------------------------------------------------------------------------------
+
+static bool identify(const char* path, bt_file_identity* identity) {
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return false;
+    *identity = (bt_file_identity){(uint64_t)info.st_dev, (uint64_t)info.st_ino};
+    return true;
+}
+
+static bool is_file(const char* path, const bt_file_identity* wanted) {
+    bt_file_identity found;
+    return identify(path, &found) && found.device == wanted->device && found.inode == wanted->inode;
+}
+
+bool bt_study_reads(const bt_study* study, const char* path) {
+    bt_file_identity identity;
+    if (!identify(path, &identity))
+        return false;
+    for (int i = 0; i < study->file_count; ++i)
+        if (is_file(path, &study->files[i]))
+            return true;
+    for (int kind = 0; kind < BT_RIG_COUNT; ++kind)
+        for (int i = 0; i < study->rig_inputs[kind].curve_count; ++i)
+            if (is_file(study->rig_inputs[kind].curves[i].path, &identity))
+                return true;
+    return false;
+}
 
 /// Reads a file into memory; on failure `errno` says why.
 static bt_status load(const char* path, char** data, size_t* size) {
@@ -73,6 +101,9 @@ static bt_status load_and_parse(reading* r, const char* path, bt_node** root) {
     char* data;
     size_t size = 0;
     BT_TRY(load(path, &data, &size));
+    bt_study* study = r->study;
+    if (study->file_count < BT_FILES_READ_MAX && identify(path, &study->files[study->file_count]))
+        ++study->file_count;
     const bt_status status = parse(r, data, size, (bt_where){keep_name(r, path), 1, 1}, root);
     free(data);
     return status;

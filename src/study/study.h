@@ -6,6 +6,8 @@
 #include "landing/landing.h"
 #include "rigs/rigs.h"
 
+#include <stdint.h>
+
 enum { BT_INPUT_MAX = 32, BT_CONDITION_MAX = 64, BT_PATH_MAX = 128 };
 
 extern const char* const bt_design_names[]; ///< sobol, latin_hypercube, full_factorial, monte_carlo
@@ -71,7 +73,7 @@ typedef struct bt_condition {
     double mean; ///< SI
 } bt_condition;
 
-enum { BT_CURVES_MAX = 8 };
+enum { BT_CURVES_MAX = 8, BT_FILES_READ_MAX = 8 };
 
 /// What a study says of one rig beside its parameters.
 typedef struct bt_rig_input {
@@ -82,6 +84,11 @@ typedef struct bt_rig_input {
         bt_where where;   ///< where it is named
     } curves[BT_CURVES_MAX];
 } bt_rig_input;
+
+/// A file, whatever its name.
+typedef struct bt_file_identity {
+    uint64_t device, inode;
+} bt_file_identity;
 
 typedef struct bt_study {
     char title[256]; ///< the file's name when it gives none
@@ -103,8 +110,10 @@ typedef struct bt_study {
     uint64_t hash; ///< of what a campaign's runs depend on: model, axes and their bounds (or
                    ///< distributions), design, seed; not of the number of samples (a
                    ///< campaign may grow), threads, comments or later chapters
-    char directory[4096];   ///< the study directory: -o, or the file's name without .yaml beside it
-    struct bt_node* places; ///< owns the file names of `where` and of curves
+    char directory[4096]; ///< the study directory: -o, or the file's name without .yaml beside it
+    int file_count;
+    bt_file_identity files[BT_FILES_READ_MAX]; ///< that it was read from
+    struct bt_node* places;                    ///< owns the file names of `where` and of curves
 } bt_study;
 
 /// Reads, checks and converts a study file with its --set overrides. All errors are collected
@@ -113,6 +122,10 @@ typedef struct bt_study {
 BT_CHECKED bt_status bt_study_read(const char* path, const char* const* sets, int set_count,
                                    bt_study* study, bt_diag* diag);
 void bt_study_destroy(bt_study* study);
+
+/// Whether a path is one of the files that the study was read from, or a measured curve that it
+/// names: by device and inode, whatever the path is called. Such a file is never written.
+bool bt_study_reads(const bt_study* study, const char* path);
 
 /// The same, but a file without `deck` and `landing` that has `rigs` may describe no more than the
 /// parts of the aircraft that its rigs test (rigs_only). They need not say where on the aircraft

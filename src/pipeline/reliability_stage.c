@@ -1,0 +1,129 @@
+#include "pipeline/pipeline.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/// Of sampling, checks and correction: raise it when the same inputs give another table.
+static const char algorithm[] = "reliability 2";
+
+/// What the table depends on, as a text (to be freed): the surrogate, the distributions, the
+/// conditions, the settings, and the model that checks it.
+static char* table_key(const bt_study* study, const bt_surrogate* surrogate) {
+    const bt_reliability_params* p = &study->reliability;
+    char* text = NULL;
+    size_t size = 0;
+    FILE* out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    fprintf(out,
+            "%s: training %016" PRIx64 " C %a gamma %a rho %a samples %lld truth %lld others %d "
+            "seed %lld\n",
+            algorithm, surrogate->training_hash, surrogate->C, surrogate->gamma, surrogate->rho,
+            (long long)p->samples, (long long)p->truth_runs, p->others, (long long)p->seed);
+    for (int i = 0; i < study->input_count; ++i) {
+        const bt_distribution* d = &study->inputs[i].distribution;
+        if (study->inputs[i].random)
+            fprintf(out, "%s %d %a %a %a %a %a %a %a\n", study->inputs[i].path, d->kind, d->mean,
+                    d->sd, d->lower, d->upper, d->mode, d->scale, d->shape);
+    }
+    for (int i = 0; i < study->condition_count; ++i)
+        fprintf(out, "%d %a\n", study->conditions[i].input, study->conditions[i].mean);
+    if (fclose(out) != 0) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}
+
+static bt_status compute(bt_study_directory* directory, const bt_surrogate* surrogate,
+                         const bt_reliability_stage* stage, bt_reliability_result* result) {
+    const int threads = (int)directory->study->campaign.threads;
+    bt_high_fidelity* truth = NULL;
+    BT_TRY(bt_high_fidelity_create(directory->study, threads, stage->stop, &truth));
+    const bt_reliability_options options = {.truth = bt_high_fidelity_run,
+                                            .truth_user = truth,
+                                            .threads = threads,
+                                            .stop = stage->stop,
+                                            .watch = stage->watch,
+                                            .watch_user = stage->watch_user};
+    const bt_status status =
+        bt_reliability_run(directory->study, surrogate, &options, result, directory->diag);
+    bt_high_fidelity_destroy(truth);
+    return status;
+}
+
+static bt_status store(bt_study_directory* directory, const bt_reliability_file* file,
+                       const bt_reliability_result* result) {
+    char path[BT_FILE_PATH_MAX], *text = NULL;
+    size_t size = 0;
+    BT_TRY(bt_study_directory_file(directory, file->name, path));
+    FILE* out = open_memstream(&text, &size);
+    if (!out)
+        return BT_ERR_MEMORY;
+    bt_status status = file->write(out, result);
+    if (fclose(out) != 0 && status == BT_OK)
+        status = BT_ERR_MEMORY;
+    if (status == BT_OK)
+        status = bt_file_write(path, text, size, directory->diag);
+    free(text);
+    return status;
+}
+
+static bt_status renew(bt_study_directory* directory, const bt_surrogate* surrogate,
+                       const bt_reliability_stage* stage, const char* key) {
+    bt_reliability_result* result = calloc(1, sizeof *result);
+    bt_status status = result ? compute(directory, surrogate, stage, result) : BT_ERR_MEMORY;
+    for (const bt_reliability_file* f = stage->files; f->name && status == BT_OK; ++f)
+        status = store(directory, f, result);
+    if (status == BT_OK)
+        status = bt_ledger_set_remark(directory->ledger, "reliability", key, directory->diag);
+    free(result);
+    return status;
+}
+
+static bool all_there(const bt_study_directory* directory, const bt_reliability_file* files) {
+    char path[BT_FILE_PATH_MAX];
+    for (const bt_reliability_file* f = files; f->name; ++f)
+        if (bt_study_directory_file(directory, f->name, path) != BT_OK || access(path, R_OK) != 0)
+            return false;
+    return true;
+}
+
+bt_status bt_stage_reliability(bt_study_directory* directory, const bt_surrogate* surrogate,
+                               const bt_reliability_stage* stage, bool* fresh) {
+    char* key = table_key(directory->study, surrogate);
+    if (!key)
+        return BT_ERR_MEMORY;
+    char* stored = bt_ledger_remark(directory->ledger, "reliability");
+    const bool stale =
+        stage->again || !stored || strcmp(stored, key) != 0 || !all_there(directory, stage->files);
+    if (fresh)
+        *fresh = stale;
+    const bt_status status = stale ? renew(directory, surrogate, stage, key) : BT_OK;
+    free(stored);
+    free(key);
+    return status;
+}
+
+bt_status bt_stage_indices(bt_study_directory* directory, const bt_surrogate* surrogate,
+                           bt_sobol_result* result) {
+    enum { SAMPLES_MAX = 200000, BOOTSTRAP = 200 };
+    const bt_study* study = directory->study;
+    const int64_t wanted = study->reliability.samples;
+    const bt_sampler sampler = bt_reliability_sampler(study, -1);
+    bt_surrogate_classifier* made = NULL;
+    BT_TRY(bt_surrogate_classifier_create(study, surrogate, &made, directory->diag));
+    bt_classifier classifier = *bt_surrogate_classifier_get(made);
+    const bt_status status = bt_sobol_indices(&sampler, bt_engaged, &classifier,
+                                              (int)(wanted < SAMPLES_MAX ? wanted : SAMPLES_MAX),
+                                              BOOTSTRAP, (int)study->campaign.threads, result);
+    bt_surrogate_classifier_destroy(made);
+    if (status != BT_ERR_NUMERIC)
+        return status;
+    bt_diag_add(directory->diag, BT_ERROR, BT_NOWHERE,
+                "reliability: the surrogate's outcomes are all the same, there is no variance to "
+                "share out");
+    return BT_ERR_INPUT;
+}

@@ -1,0 +1,130 @@
+#include "report/reliability_report.h"
+
+#include "base/text.h"
+#include "base/units.h"
+
+#include <math.h>
+#include <string.h>
+
+static const bt_column columns[] = {
+    {.name = "parameter", .head = "condition", .unit = ""},
+    {.name = "value", .head = "mean", .unit = ""},
+    {.name = "unit", .head = NULL, .unit = ""},
+    {.name = "corrected", .head = "corrected", .unit = "", .decimals = 4, .interval = true},
+    {.name = "surrogate", .head = "surrogate", .unit = "", .decimals = 4, .interval = true},
+    {.name = "samples", .head = NULL, .unit = ""},
+    {.name = "disagreements", .head = "disagree", .unit = ""},
+    {.name = "high_fidelity_runs", .head = NULL, .unit = ""},
+    {.name = "high_fidelity_failed", .head = NULL, .unit = ""},
+    {.name = "disagreement", .head = "share", .unit = "%", .scale = 100, .decimals = 2},
+    {.name = "outside_share", .head = "outside", .unit = "%", .scale = 100, .decimals = 2},
+};
+
+static const char* name_of(const bt_reliability_row* row) {
+    return row->parameter[0] ? row->parameter : "all as distributed";
+}
+
+/// The condition's mean in the unit people use: degrees for radians, SI for the rest.
+static void value_text(const bt_reliability_row* row, char* text, size_t size) {
+    char number[40];
+    const bool angle = row->unit && !strcmp(row->unit, "rad");
+    bt_text_print_rounded(angle ? row->value * 180 / M_PI : row->value, 4, number, sizeof number);
+    const char* unit = angle ? "deg" : bt_unit_text(row->unit);
+    snprintf(text, size, "%s%s%s", number, unit && *unit ? " " : "", unit ? unit : "");
+}
+
+static void add_row(bt_report_table* table, const bt_reliability_row* row) {
+    char value[64] = "", disagree[48] = "not checked";
+    const char* unit = row->parameter[0] && *row->unit ? bt_unit_text(row->unit) : "";
+    const bool checked = row->truth_runs > 0;
+    if (row->parameter[0])
+        value_text(row, value, sizeof value);
+    if (checked)
+        snprintf(disagree, sizeof disagree, "%d of %d", row->disagreements, row->truth_runs);
+    bt_report_table_row(table);
+    bt_report_table_text(table, name_of(row));
+    bt_report_table_said(table, row->parameter[0] ? row->value : NAN, value);
+    bt_report_table_text(table, unit ? unit : "");
+    bt_report_table_interval(table, checked ? row->corrected : NAN, &row->corrected_ci95);
+    bt_report_table_interval(table, row->surrogate, &row->surrogate_ci95);
+    bt_report_table_count(table, row->samples);
+    bt_report_table_said(table, checked ? (double)row->disagreements : NAN, disagree);
+    bt_report_table_count(table, row->truth_runs);
+    bt_report_table_count(table, row->truth_failed);
+    bt_report_table_number(table, checked ? row->disagreement : NAN);
+    bt_report_table_number(table, row->outside_share);
+}
+
+static void remark_outside(bt_report_table* table, const bt_reliability_row* far) {
+    char value[64] = "";
+    if (far->parameter[0])
+        value_text(far, value, sizeof value);
+    bt_report_table_remark(table,
+                           "outside: share of the samples beyond the range of the training "
+                           "landings; at worst (%s%s%s) the surrogate would give %.5f if all of "
+                           "them missed and %.5f if all engaged",
+                           name_of(far), *value ? " " : "", value, far->outside_missed,
+                           far->outside_engaged);
+}
+
+static void add_remarks(bt_report_table* table, const bt_reliability_result* result) {
+    char samples[32];
+    int failed = result->overall.truth_failed, runs = result->overall.truth_runs;
+    const bt_reliability_row* far = &result->overall; // most samples outside the box
+    for (int i = 0; i < result->condition_count; ++i) {
+        failed += result->condition[i].truth_failed;
+        runs += result->condition[i].truth_runs;
+        if (result->condition[i].outside_share > far->outside_share)
+            far = &result->condition[i];
+    }
+    bt_report_table_remark(table, "%s samples of the surrogate per row, %.1f s in all",
+                           bt_count_text(result->overall.samples, samples), result->seconds);
+    bt_report_table_remark(table, "intervals: 95 %%; the corrected one covers the error of the "
+                                  "surrogate, the surrogate's own only the sampling");
+    if (runs > 0) {
+        bt_report_table_remark(table, "disagree: high-fidelity runs whose outcome differs from "
+                                      "the surrogate's; share: weighted back to the distribution");
+        bt_report_table_remark(table, "failed: %d of %d high-fidelity runs%s", failed, runs,
+                               failed ? "; the corrected intervals hold either outcome for them"
+                                      : "");
+    }
+    if (far->outside_share > 0)
+        remark_outside(table, far);
+}
+
+bt_report_table* bt_reliability_table(const bt_reliability_result* result) {
+    bt_report_table* table =
+        bt_report_table_create(NULL, columns, (int)(sizeof columns / sizeof columns[0]));
+    for (int i = 0; i < result->condition_count; ++i)
+        add_row(table, &result->condition[i]);
+    add_row(table, &result->overall);
+    add_remarks(table, result);
+    return table;
+}
+
+static bt_status write_text(FILE* out, const bt_reliability_result* result) {
+    bt_report_table* table = bt_reliability_table(result);
+    const bt_status status = bt_report_table_print(table, out);
+    bt_report_table_destroy(table);
+    return status;
+}
+
+static bt_status write_csv(FILE* out, const bt_reliability_result* result) {
+    bt_report_table* table = bt_reliability_table(result);
+    const bt_status status = bt_report_table_csv(table, out);
+    bt_report_table_destroy(table);
+    return status;
+}
+
+static bt_status write_json(FILE* out, const bt_reliability_result* result) {
+    bt_json json = {.out = out};
+    bt_reliability_write_json(&json, result);
+    return BT_OK;
+}
+
+const bt_reliability_file bt_reliability_files[] = {
+    {"reliability.txt", write_text},
+    {"reliability.csv", write_csv},
+    {"reliability.json", write_json},
+    {NULL, NULL},
+};
