@@ -15,6 +15,8 @@ typedef struct bt_landing_report {
     bool retained;   ///< and still held it at the end of the run
     char mode[16];   ///< direct, arm, bounced_over, passed_over, ridden_over, none
     double margin_m; ///< cable centre above lip centre when they meet; positive when caught
+    /// Loads of the hook on the deck are not calibrated (docs/theory/shank.md); loads after a catch
+    /// hold for 50 ms, since no arresting engine pays out.
     double throat_force_peak_N, hook_deck_force_peak_N, cable_tension_peak_N;
     int bounces;
     double first_bounce_height_m, first_bounce_distance_m; ///< 0 without a bounce

@@ -32,7 +32,7 @@ static double leaving_slope(double lambda, double rho, double depth, double leve
             next = 0.5 * (low + high);
         const double step = fabs(next - t);
         t = next;
-        if (step <= 1e-13 * t)
+        if (step <= 1e-7 * t) // what is left is its square
             break;
     }
     return t;
@@ -85,8 +85,8 @@ double bt_carcass_equivalent_deflection(double length_m, double radius_m, double
         return bt_tyre_equivalent_deflection(radius_m, area_m2);
     if (!(area_m2 > 0))
         return 0;
-    // area(d) is convex and steeper than 2 lambda: Newton comes down to the root from this side
-    double d = fmin(area_m2 / (2 * length_m), bt_tyre_equivalent_deflection(radius_m, area_m2));
+    // area(d) is convex: Newton comes down to the root from above, after one step if not at once
+    double d = fmin(area_m2 / (2 * length_m), cbrt(0.5625 * area_m2 * area_m2 / (2 * radius_m)));
     for (int i = 0; i < 30; ++i) {
         const double area =
             bt_tyre_segment_area(radius_m, d) + bt_carcass_beside_patch(length_m, radius_m, d);
@@ -94,7 +94,7 @@ double bt_carcass_equivalent_deflection(double length_m, double radius_m, double
                                  half_patch(length_m, radius_m, d) - sqrt(2 * radius_m * d));
         const double step = (area - area_m2) / rate;
         d -= step;
-        if (fabs(step) <= 1e-13 * d)
+        if (fabs(step) <= 1e-7 * d) // what is left is its square
             break;
     }
     return d;
