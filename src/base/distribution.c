@@ -33,7 +33,10 @@ static double truncated_share(const bt_distribution* d) {
 }
 
 static const char* check_finite(const bt_distribution* d) {
-    const double values[] = {d->mean, d->sd, d->lower, d->upper, d->mode, d->scale, d->shape};
+    const bool one_sided = d->kind == BT_TRUNCATED_NORMAL && (isinf(d->lower) || isinf(d->upper));
+    const double values[] = {
+        d->mean,  d->sd,   one_sided ? 0 : d->lower, one_sided ? 0 : d->upper, d->mode,
+        d->scale, d->shape};
     for (size_t i = 0; i < sizeof values / sizeof values[0]; ++i)
         if (!isfinite(values[i]))
             return "a parameter is not finite";
@@ -51,7 +54,9 @@ const char* bt_distribution_check(const bt_distribution* d) {
             return "sd must be positive";
         if (!(d->lower < d->upper))
             return "lower must be below upper";
-        return truncated_share(d) > 1e-12 ? NULL : "the bounds leave nothing of the normal";
+        if (isinf(d->lower) && isinf(d->upper))
+            return "lower or upper is missing; one of them is needed";
+        return truncated_share(d) > 1e-290 ? NULL : "the bounds leave nothing of the normal";
     case BT_LOGNORMAL:
         if (!(d->mean > 0))
             return "mean must be positive";
@@ -186,18 +191,16 @@ double bt_distribution_cdf(const bt_distribution* d, double x) {
     return NAN;
 }
 
-/// Mean and variance of a truncated standard normal:
-///   m = (phi(a) - phi(b)) / Z,   v = 1 + (a phi(a) - b phi(b)) / Z - m^2
-static void truncated_moments(const bt_distribution* d, double* mean, double* variance) {
+/// Mean of a truncated standard normal: (phi(a) - phi(b)) / Z; a narrow one has its middle.
+static double truncated_mean(const bt_distribution* d) {
     const double a = (d->lower - d->mean) / d->sd, b = (d->upper - d->mean) / d->sd;
-    const double share = truncated_share(d);
-    const double phi_a = gsl_ran_ugaussian_pdf(a), phi_b = gsl_ran_ugaussian_pdf(b);
-    *mean = (phi_a - phi_b) / share;
-    *variance = 1 + (a * phi_a - b * phi_b) / share - *mean * *mean;
+    if (b - a < 1e-4) // the density is 1 - m (z - m) about the middle m: off by m (b - a)^2 / 12
+        return d->lower + (d->upper - d->lower) / 2;
+    const double z = (gsl_ran_ugaussian_pdf(a) - gsl_ran_ugaussian_pdf(b)) / truncated_share(d);
+    return fmin(fmax(d->mean + d->sd * z, d->lower), d->upper);
 }
 
 double bt_distribution_mean(const bt_distribution* d) {
-    double m, v;
     switch (d->kind) {
     case BT_NORMAL:
     case BT_LOGNORMAL:
@@ -205,8 +208,7 @@ double bt_distribution_mean(const bt_distribution* d) {
     case BT_CONSTANT:
         return d->mean;
     case BT_TRUNCATED_NORMAL:
-        truncated_moments(d, &m, &v);
-        return d->mean + d->sd * m;
+        return truncated_mean(d);
     case BT_UNIFORM:
         return d->lower + (d->upper - d->lower) / 2;
     case BT_TRIANGULAR:
@@ -215,36 +217,6 @@ double bt_distribution_mean(const bt_distribution* d) {
         return d->lower + d->scale * tgamma(1 + 1 / d->shape);
     case BT_GUMBEL:
         return d->mode + EULER_GAMMA * d->scale;
-    case BT_DISTRIBUTION_KINDS:
-        break;
-    }
-    return NAN;
-}
-
-double bt_distribution_sd(const bt_distribution* d) {
-    double m, v;
-    switch (d->kind) {
-    case BT_NORMAL:
-    case BT_LOGNORMAL:
-        return d->sd;
-    case BT_TRUNCATED_NORMAL:
-        truncated_moments(d, &m, &v);
-        return d->sd * sqrt(fmax(v, 0));
-    case BT_UNIFORM:
-        return (d->upper - d->lower) / sqrt(12);
-    case BT_TRIANGULAR: {
-        const double a = d->mode - d->lower, b = d->upper - d->mode;
-        return sqrt((a * a + a * b + b * b) / 18);
-    }
-    case BT_WEIBULL:
-        m = tgamma(1 + 1 / d->shape);
-        return d->scale * sqrt(fmax(tgamma(1 + 2 / d->shape) - m * m, 0));
-    case BT_GUMBEL:
-        return d->scale * M_PI / sqrt(6);
-    case BT_EXPONENTIAL:
-        return d->mean - d->lower;
-    case BT_CONSTANT:
-        return 0;
     case BT_DISTRIBUTION_KINDS:
         break;
     }

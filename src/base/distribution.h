@@ -8,7 +8,7 @@
 
 typedef enum bt_distribution_kind {
     BT_NORMAL,           ///< mean, sd
-    BT_TRUNCATED_NORMAL, ///< mean, sd (of the parent), lower, upper
+    BT_TRUNCATED_NORMAL, ///< mean, sd (of the parent), lower, upper; one bound may be infinite
     BT_LOGNORMAL,        ///< mean, sd of the variable itself
     BT_UNIFORM,          ///< lower, upper
     BT_TRIANGULAR,       ///< lower, mode, upper
@@ -37,7 +37,6 @@ double bt_distribution_quantile(const bt_distribution* d, double u);
 /// Cumulative probability at x.
 double bt_distribution_cdf(const bt_distribution* d, double x);
 double bt_distribution_mean(const bt_distribution* d);
-double bt_distribution_sd(const bt_distribution* d);
 
 /// The same distribution moved so that its mean is `mean` (spread unchanged; a condition).
 bt_distribution bt_distribution_moved(const bt_distribution* d, double mean);

@@ -90,8 +90,8 @@ static double contact_energy(const bt_cable_model* model, const bt_cable_state* 
 
 void bt_cable_audit(const bt_cable_model* model, bt_cable_state* s, bt_cable_energy* energy) {
     *energy = (bt_cable_energy){0};
-    bt_cable_forces(model, s);
-    model->kernel.resultants(model, s);
+    bt_cable_balance(model, s);
+    const bool turns = bt_frame_turns(&s->scalars->frame);
     const double half = 0.5 * s->scalars->last_step_s;
     for (int i = 0; i < model->count; ++i) {
         const double m = model->mass_kg[i], kick = half * model->inverse_mass[i];
@@ -105,7 +105,8 @@ void bt_cable_audit(const bt_cable_model* model, bt_cable_state* s, bt_cable_ene
         bt_cross(r, v, orbital);
         energy->kinetic_J += 0.5 * (m * bt_dot(v, v) + model->inverse_tilt[i] * bt_dot(h, h) +
                                     model->inverse_spin[i] * ht * ht);
-        energy->gravity_J += m * model->def.gravity_mps2 * r[2];
+        energy->gravity_J -= m * bt_dot(s->scalars->frame.gravity_mps2, r);
+        energy->gravity_J += turns ? bt_cable_centrifugal(model, s, i) : 0;
         for (int k = 0; k < 3; ++k) {
             energy->momentum_kgmps[k] += m * v[k];
             energy->angular_momentum_Nms[k] += m * orbital[k] + h[k];

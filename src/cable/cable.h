@@ -12,6 +12,7 @@
 #include "base/diag.h"
 #include "base/fields.h"
 #include "base/status.h"
+#include "mechanics/frame.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -98,7 +99,7 @@ typedef struct bt_cable_def {
     double axial_stiffness_N, bending_stiffness_Nm2, twist_stiffness_Nm2; ///< K0
     double axial_damping_Ns, bending_damping_Nm2s, twist_damping_Nm2s;    ///< C0
     double shear_ratio, compression_ratio;
-    double gravity_mps2;
+    double gravity_mps2; ///< of the frame in which a new state starts
     bt_cable_end end[2]; ///< at segment 0 and at segment count - 1
     bool deck;           ///< false: no deck
     bt_cable_deck_params deck_contact;
@@ -160,6 +161,7 @@ typedef struct bt_cable_state {
     double* net[6];                         ///< scratch: resultant force and torque
     struct bt_cable_scalars {
         double time_s, last_step_s;
+        bt_frame frame; ///< at the present time; the caller may change it before any step
         double anchor_m[2][3], anchor_velocity_mps[2][3]; ///< the caller may move them
         double anchor_e[2][4];                            ///< attitude a clamped end is held at
         double end_tension_N[2];                          ///< purchase tension (sheaves)
@@ -195,6 +197,8 @@ void bt_cable_place(const bt_cable_model* model, bt_cable_state* state);
 /// Copies everything; both states belong to the same model.
 void bt_cable_state_copy(const bt_cable_model* model, bt_cable_state* to,
                          const bt_cable_state* from);
+/// Whether two states are equal to the bit.
+bool bt_cable_state_equal(const bt_cable_state* a, const bt_cable_state* b);
 
 /// Static equilibrium under gravity, supports, deck, ends and the loads in the state, starting from
 /// the state's shape (plane x = 0; a rope whose ends and supports are alike left and right comes
@@ -255,7 +259,8 @@ double bt_cable_tension(const bt_cable_model* model, const bt_cable_state* state
 double bt_cable_tension_max(const bt_cable_model* model, const bt_cable_state* state);
 
 typedef struct bt_cable_energy {
-    double kinetic_J, elastic_J, gravity_J; ///< elastic: joints, ends, supports and deck
+    double kinetic_J, elastic_J, gravity_J; ///< elastic: joints, ends, supports and deck;
+                                            ///< gravity: centrifugal too in a frame that turns
     double momentum_kgmps[3];               ///< linear
     double angular_momentum_Nms[3];         ///< about the origin of the deck frame
 } bt_cable_energy;

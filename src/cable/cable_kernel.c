@@ -8,8 +8,8 @@
 #define PASTE(a, b) PASTE_(a, b)
 #define LEVEL(name) PASTE(name, BT_KERNEL_LEVEL)
 
-/// Force on the segment before each joint and torques on both, Eqs. 11-17 and shear. Force and
-/// torque act at the middle of the gap, so linear and angular momentum are kept exactly.
+/// Force on the segment before each joint and torques on both [Peng2023 Eqs. 12-17], and shear.
+/// Force and torque act at the middle of the gap, so linear and angular momentum are kept exactly.
 void LEVEL(bt_cable_joints)(const bt_cable_model* model, bt_cable_state* state) {
     const bt_cable_def* def = &model->def;
     const double ka = def->axial_stiffness_N, ca = def->axial_damping_Ns;
@@ -50,6 +50,7 @@ void LEVEL(bt_cable_joints)(const bt_cable_model* model, bt_cable_state* state) 
         const double per_ss = 1 / (sx * sx + sy * sy + sz * sz);
         const double ds = (dx * sx + dy * sy + dz * sz) * per_ss;
         const double us = (ux * sx + uy * sy + uz * sz) * per_ss;
+        /* axial spring and damper [Peng2023 Eqs. 12, 13] and shear, K0 / l and C0 / l */
         const double side = ds > 0 ? 1 : push;
         const double along = side * (ka * ds + ca * us) - (ks * ds + cs * us);
         const double per = per_spacing[j];
@@ -66,6 +67,7 @@ void LEVEL(bt_cable_joints)(const bt_cable_model* model, bt_cable_state* state) 
         const double ox = wx[j] - wx[i], oy = wy[j] - wy[i], oz = wz[j] - wz[i];
         const double cs_ = (cx * sx + cy * sy + cz * sz) * per_ss * twice;
         const double os = (ox * sx + oy * sy + oz * sz) * per_ss;
+        /* bending [Peng2023 Eqs. 14, 15] and twist [Peng2023 Eqs. 16, 17] springs and dampers */
         const double turn = kt * cs_ + ct * os;
         const double bend = kb * twice;
         const double mx = per * (turn * sx + (bend * cx + cb * ox));
@@ -87,7 +89,7 @@ void LEVEL(bt_cable_joints)(const bt_cable_model* model, bt_cable_state* state) 
 void LEVEL(bt_cable_resultants)(const bt_cable_model* model, bt_cable_state* state) {
     const bt_cable_state* s = state;
     const deck_law law = deck_law_of(model);
-    const double gravity = model->def.gravity_mps2;
+    const double gravity = -state->scalars->frame.gravity_mps2[2];
     for (int i = 0; i < model->padded; ++i) {
         const int j = i + 1;
         const double tilt_rate = s->wx[i] * s->ty[i] - s->wy[i] * s->tx[i];
@@ -116,7 +118,7 @@ void LEVEL(bt_cable_resultants)(const bt_cable_model* model, bt_cable_state* sta
 void LEVEL(bt_cable_advance)(const bt_cable_model* model, bt_cable_state* state, double kick_s,
                              double drift_s) {
     const deck_law law = deck_law_of(model);
-    const double gravity = model->def.gravity_mps2, half_drift = 0.5 * drift_s;
+    const double gravity = -state->scalars->frame.gravity_mps2[2], half_drift = 0.5 * drift_s;
     const double* restrict half = model->half_m, * restrict mass = model->mass_kg;
     const double* restrict per_mass = model->inverse_mass, * restrict per_tilt =
                                                                model->inverse_tilt;

@@ -35,4 +35,22 @@ bt_cable_passage bt_cable_pass(const bt_cable_model* model, const bt_cable_state
 int bt_cable_bracket(const bt_cable_model* model, const bt_cable_state* state, double y_m,
                      int hint);
 
+/// Whether the frame has no acceleration but upward and does not turn: the kernel alone sees to it.
+bool bt_cable_frame_is_still(const bt_cable_state* state);
+
+/// Force and torque of the frame on a segment, but its acceleration along z, which the kernel adds.
+void bt_cable_frame_load(const bt_cable_model* model, const bt_cable_state* state, int segment,
+                         double kick_s, double force_N[3], double torque_Nm[3]);
+
+/// The state with the loads of the frame added to those of the caller, in the arrays `net`; weight
+/// along z is left to the kernel. kick_s: the time over which velocities will change.
+void bt_cable_add_frame(const bt_cable_model* model, bt_cable_state* state, double kick_s,
+                        bt_cable_state* loaded);
+
+/// Centrifugal potential of a segment, J.
+double bt_cable_centrifugal(const bt_cable_model* model, const bt_cable_state* state, int segment);
+
+/// Resultant forces and torques of all segments, into `net`: for equilibrium and audit.
+void bt_cable_balance(const bt_cable_model* model, bt_cable_state* state);
+
 #endif

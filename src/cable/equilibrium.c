@@ -1,7 +1,7 @@
 /// Static equilibrium of the cable: Newton's method on the forces of the stepping kernel, in the
 /// plane x = 0, three unknowns (y, z, rotation about x) per segment, block-tridiagonal Jacobian by
 /// central differences in three colours.
-#include "cable/cable_kernel.h"
+#include "cable/cable_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,13 +17,6 @@ enum {
 typedef struct row {
     double lower[B][B], diagonal[B][B], upper[B][B], right[B];
 } row;
-
-static void evaluate(const bt_cable_model* model, bt_cable_state* s) {
-    model->kernel.joints(model, s);
-    bt_cable_ends(model, s);
-    bt_cable_supports(model, s);
-    model->kernel.resultants(model, s);
-}
 
 /// Forces along y and z and the torque about x of one segment.
 static void resultant(const bt_cable_state* s, int i, double r[B]) {
@@ -69,7 +62,7 @@ static void difference(const bt_cable_model* model, bt_cable_state* s, row* rows
     const int n = model->count;
     for (int i = colour; i < n; i += 3)
         move(s, i, unknown, sign * by);
-    evaluate(model, s);
+    bt_cable_balance(model, s);
     for (int i = colour; i < n; i += 3) {
         const int first = i > 0 ? i - 1 : 0, last = i < n - 1 ? i + 1 : n - 1;
         for (int k = first; k <= last; ++k) {
@@ -205,7 +198,7 @@ static bool improve(const bt_cable_model* model, bt_cable_state* s, row* rows, b
     for (int i = 0; i < n; ++i)
         for (int a = 0; a < B; ++a)
             move(s, i, a, -scale * rows[i].right[a]);
-    evaluate(model, s);
+    bt_cable_balance(model, s);
     return true;
 }
 
@@ -213,7 +206,7 @@ static bool improve(const bt_cable_model* model, bt_cable_state* s, row* rows, b
 /// failure.
 static double settle(const bt_cable_model* model, bt_cable_state* s, row* rows,
                      bt_cable_state* keep) {
-    evaluate(model, s);
+    bt_cable_balance(model, s);
     double left = largest(model, s), best = INFINITY;
     bool full = true;
     for (int k = 0; k < NEWTON_MAX && isfinite(left); ++k) {
@@ -318,14 +311,14 @@ bt_status bt_cable_equilibrium(const bt_cable_model* model, bt_cable_state* stat
     for (int k = 0; k < ANCHOR_MAX && left < 1e-3 && full; ++k) {
         if (tune_anchors(model, state) < 1e-12)
             break;
-        evaluate(model, state);
+        bt_cable_balance(model, state);
         if (!improve(model, state, rows, &keep, &full))
             left = INFINITY;
     }
     if (left < 1e-3)
         left = settle(model, state, rows, &keep);
     symmetrise(model, state);
-    evaluate(model, state);
+    bt_cable_balance(model, state);
     left = fmax(left, largest(model, state));
     if (residual_N)
         *residual_N = left;

@@ -16,6 +16,7 @@ void bt_cable_place_supports(const bt_cable_params* p, bt_list* y) {
     }
 }
 
+/// Finite segments [Peng2023 Eq. 11].
 int bt_cable_mesh_half(const bt_cable_mesh_params* mesh, double half_span, double* length) {
     const double fine_width = fmin(mesh->fine_half_width_m, half_span);
     const int fine_count = (int)ceil(fine_width / mesh->fine_length_m - 1e-9);

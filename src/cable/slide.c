@@ -1,5 +1,6 @@
 #include "cable/slide.h"
 
+#include "cable/cable_parts.h"
 #include "cable/deck.h"
 #include "elements/friction.h"
 #include "mechanics/vec.h"
@@ -42,7 +43,8 @@ static motion in_the_middle(const bt_cable_model* model, const bt_cable_state* s
         deck_under(law, model->half_m[i], s->z[i], s->tz[i], s->vz[i], tilt_rate);
     const double sx = s->vx[i] - s->wy[i] * law.radius, sy = s->vy[i] + s->wx[i] * law.radius;
     const double drag = deck_drag(law, deck.normal, sx, sy, kick_s * model->inverse_slide[i]);
-    const double half_s = 0.5 * kick_s, weight = model->def.gravity_mps2 * model->mass_kg[i];
+    const double half_s = 0.5 * kick_s,
+                 weight = -s->scalars->frame.gravity_mps2[2] * model->mass_kg[i];
     const int j = i + 1;
     const double impulse[3] = {
         half_s * (s->joint_fx[j] - s->joint_fx[i] + s->fx[i] - drag * sx),
@@ -59,6 +61,15 @@ static motion in_the_middle(const bt_cable_model* model, const bt_cable_state* s
     };
     motion m = motion_now(s, i);
     respond(model, s, i, impulse, moment, &m);
+    if (!bt_cable_frame_is_still(s)) {
+        double force[3], torque[3];
+        bt_cable_frame_load(model, s, i, kick_s, force, torque);
+        for (int k = 0; k < 3; ++k) {
+            force[k] *= half_s;
+            torque[k] *= half_s;
+        }
+        respond(model, s, i, force, torque, &m);
+    }
     return m;
 }
 

@@ -38,6 +38,10 @@ void bt_cable_state_copy(const bt_cable_model* model, bt_cable_state* to,
     memcpy(to->block, from->block, from->block_size);
 }
 
+bool bt_cable_state_equal(const bt_cable_state* a, const bt_cable_state* b) {
+    return a->block_size == b->block_size && memcmp(a->block, b->block, a->block_size) == 0;
+}
+
 void bt_cable_set_axis(bt_cable_state* state, int i) {
     const double a = state->e0[i], b = state->e1[i], c = state->e2[i], d = state->e3[i];
     state->tx[i] = 2 * (b * c - a * d);
@@ -97,6 +101,7 @@ static void place_slack(const bt_cable_model* model, bt_cable_state* state, doub
 void bt_cable_place(const bt_cable_model* model, bt_cable_state* state) {
     const bt_cable_def* d = &model->def;
     memset(state->block, 0, state->block_size);
+    state->scalars->frame.gravity_mps2[2] = -d->gravity_mps2;
     double along[3], span = 0;
     for (int k = 0; k < 3; ++k)
         along[k] = d->end[1].anchor_m[k] - d->end[0].anchor_m[k];

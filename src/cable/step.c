@@ -1,19 +1,27 @@
 /// One step of the cable, and the loads of the caller.
-#include "cable/cable_kernel.h"
+#include "cable/cable_parts.h"
 
 #include "mechanics/vec.h"
 
 #include <string.h>
 
 void bt_cable_forces(const bt_cable_model* model, bt_cable_state* state) {
+    // 1. springs and dampers between the segments [Peng2023 Eqs. 12-17]
     model->kernel.joints(model, state);
+    // 2. what holds the rope: sheaves with the purchase cable, wire supports
     bt_cable_ends(model, state);
     bt_cable_supports(model, state);
 }
 
 void bt_cable_advance(const bt_cable_model* model, bt_cable_state* state, double step_s) {
     const double kick = 0.5 * (state->scalars->last_step_s + step_s);
-    model->kernel.advance(model, state, kick, step_s);
+    // 3. what the deck's motion does to every segment
+    bt_cable_state loaded;
+    const bool still = bt_cable_frame_is_still(state);
+    if (!still)
+        bt_cable_add_frame(model, state, kick, &loaded);
+    // 4. the deck under every segment, then velocities, positions and attitudes by the step
+    model->kernel.advance(model, still ? state : &loaded, kick, step_s);
     state->scalars->last_step_s = step_s;
     state->scalars->time_s += step_s;
 }

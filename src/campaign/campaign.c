@@ -1,5 +1,6 @@
 #include "campaign/campaign.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -69,7 +70,7 @@ static bt_status commit(campaign* c) {
 
 static bt_status store(void* user, const bt_job* job, const bt_landing_result* result) {
     campaign* c = user;
-    BT_TRY(bt_ledger_add(c->ledger, job->run, job->x, result, c->diag));
+    BT_TRY(bt_ledger_add(c->ledger, job->run, job->x, NAN, result, c->diag));
     count_result(c->progress, result->outcome);
     return ++c->uncommitted >= GROUP_RUNS ? commit(c) : BT_OK;
 }

@@ -19,7 +19,7 @@ struct bt_design {
     int64_t count;
     int64_t levels[BT_INPUT_MAX];
     gsl_qrng* sobol;
-    int64_t sobol_next; ///< run that the generator gives next
+    int64_t sobol_next; ///< index that the generator gives next; it leaves out 0, the origin
     double sobol_point[SOBOL_AXES_MAX];
     uint64_t shift[BT_INPUT_MAX];
 };
@@ -99,6 +99,7 @@ static bt_status prepare(bt_design* d, bt_diag* diag) {
         d->sobol = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)d->axes.count);
         if (!d->sobol)
             return BT_ERR_MEMORY;
+        d->sobol_next = 1;
     }
     return BT_OK;
 }
@@ -134,11 +135,13 @@ int64_t bt_design_count(const bt_design* design) {
     return design->count;
 }
 
-/// Advances the sequence to a run (from its start when the run lies behind).
+/// Advances the sequence to the point of index `run` (from its start when that lies behind). Index
+/// 0 is the origin, so that the first 2^m points are a net.
 static void sobol_seek(bt_design* d, int64_t run) {
     if (run < d->sobol_next - 1) {
         gsl_qrng_init(d->sobol);
-        d->sobol_next = 0;
+        memset(d->sobol_point, 0, sizeof d->sobol_point);
+        d->sobol_next = 1;
     }
     for (; d->sobol_next <= run; ++d->sobol_next)
         gsl_qrng_get(d->sobol, d->sobol_point);

@@ -1,8 +1,9 @@
 /// The ledger of a campaign: one SQLite file, one row per run, open to anyone's SQL.
 ///
 /// Tables: meta (key, value), inputs (idx, path, unit), runs (run, one column per input named by
-/// its path, status, outcome, mode, margin_m, ... , wall_s, state_hash). SI throughout. A run that
-/// diverged has status 'failed' and no outcome: it can never be taken for a label.
+/// its path, log_density, status, then the columns of landing/result.h). Views of runs: landings
+/// (all but the failed), misses, failed. SI throughout. A run that diverged has status 'failed' and
+/// no outcome: it can never be taken for a label. Columns that a user adds are left alone.
 #ifndef BT_CAMPAIGN_LEDGER_H
 #define BT_CAMPAIGN_LEDGER_H
 
@@ -21,8 +22,10 @@ typedef enum bt_ledger_access {
 /// Opens the ledger of a study at a path.
 ///
 /// Refused with BT_ERR_IO, said in diag, nothing changed: a file that is not a bolter ledger,
-/// a damaged one, one of another version, one that cannot be read or written; and a ledger of
-/// another study (the first key that differs is named).
+/// a damaged one, one of another format, one that cannot be read or written; and a ledger of
+/// another study (the first key that differs is named). What a writer that was killed left behind
+/// is rolled back first, also for reading. Columns of results that this version has and the file
+/// has not are added when it is opened for writing, and read as empty when it is not.
 BT_CHECKED bt_status bt_ledger_open(const char* path, const bt_study* study, bt_ledger_access how,
                                     bt_ledger** ledger, bt_diag* diag);
 
@@ -30,10 +33,13 @@ BT_CHECKED bt_status bt_ledger_open(const char* path, const bt_study* study, bt_
 void bt_ledger_close(bt_ledger* ledger);
 
 /// Adds a run inside the current transaction (opened when there is none). x [axes.count], SI.
+/// log_density: natural logarithm of the density that the point was drawn with, per SI unit of
+/// every axis; NAN (NULL in the file) where it is not known.
 /// On BT_ERR_IO (disk full, said in diag) the transaction is rolled back: what was committed
 /// before stays.
 BT_CHECKED bt_status bt_ledger_add(bt_ledger* ledger, int64_t run, const double* x,
-                                   const bt_landing_result* result, bt_diag* diag);
+                                   double log_density, const bt_landing_result* result,
+                                   bt_diag* diag);
 
 /// Commits what was added since the last commit.
 BT_CHECKED bt_status bt_ledger_commit(bt_ledger* ledger, bt_diag* diag);
@@ -49,6 +55,7 @@ BT_CHECKED bt_status bt_ledger_count(bt_ledger* ledger, bt_ledger_counts* counts
 typedef struct bt_ledger_row {
     int64_t run;
     double x[BT_INPUT_MAX]; ///< in the order of the design's axes
+    double log_density;     ///< that it was drawn with; NAN where it is not known
     bt_landing_result result;
 } bt_ledger_row;
 

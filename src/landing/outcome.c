@@ -5,17 +5,6 @@
 /// Lower hops are contact chatter: an air gap that no cable or gauge would notice.
 static const double bounce_least_m = 1e-4;
 
-const char* bt_outcome_name(bt_outcome outcome) {
-    static const char* const names[] = {"missed", "engaged", "failed"};
-    return names[outcome];
-}
-
-const char* bt_mode_name(bt_mode mode) {
-    static const char* const names[] = {"none",         "direct",      "arm",
-                                        "bounced_over", "passed_over", "ridden_over"};
-    return names[mode];
-}
-
 void bt_tracker_start(bt_tracker* tracker, bt_landing_result* result) {
     *tracker =
         (bt_tracker){.margin_m = NAN, .last_gap_m = NAN, .first_contact_s = NAN, .catch_s = NAN};

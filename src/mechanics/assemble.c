@@ -425,6 +425,39 @@ static void report_open_joint(const bt_system* system, int j, double residual, b
                 joint->body_b < 0 ? "ground" : system->bodies[joint->body_b].name, residual);
 }
 
+/// A change of velocities at assembly above this share of the largest is worth a note.
+#define NOTED_CHANGE 0.01
+
+/// Says whose velocity had to change most to agree with the joints, in the unit of its own.
+static void note_changed_velocity(const bt_system* system, const bt_state* state, bt_diag* diag) {
+    double fastest = 0, most = 0;
+    int changed = -1;
+    for (int b = 0; b < system->body_count; ++b) {
+        const bt_body* body = &system->bodies[b];
+        const double size = gyration_radius(body), *now = state->v + 6 * b;
+        double change2 = 0, speed2 = 0;
+        for (int i = 0; i < 6; ++i) {
+            const double per = i < 3 ? 1 : size, by = per * (now[i] - body->v[i]);
+            change2 += by * by;
+            speed2 += per * per * body->v[i] * body->v[i];
+        }
+        fastest = fmax(fastest, speed2);
+        if (change2 > most) {
+            most = change2;
+            changed = b;
+        }
+    }
+    if (changed < 0 || sqrt(most) <= NOTED_CHANGE * sqrt(fastest))
+        return;
+    const double *v = system->bodies[changed].v, *now = state->v + 6 * changed;
+    bt_diag_add(diag, BT_NOTE, BT_NOWHERE,
+                "body '%s': the given velocities break the joints and were changed, here from %.4g "
+                "to %.4g m/s and from %.4g to %.4g rad/s; give every body the velocity that the "
+                "joints ask for",
+                system->bodies[changed].name, bt_norm(v), bt_norm(now), bt_norm(v + 3),
+                bt_norm(now + 3));
+}
+
 /// Finds consistent positions and velocities near the given ones and keeps them in the bodies.
 static bt_status find_start(bt_system* system, bt_state* state, bt_diag* diag) {
     bt_failure failure = {0};
@@ -442,6 +475,7 @@ static bt_status find_start(bt_system* system, bt_state* state, bt_diag* diag) {
         return BT_ERR_INPUT;
     }
     bt_close_velocities(system, state);
+    note_changed_velocity(system, state, diag);
     for (int b = 0; b < system->body_count; ++b) {
         memcpy(system->bodies[b].q, state->q + 7 * b, 7 * sizeof(double));
         memcpy(system->bodies[b].v, state->v + 6 * b, 6 * sizeof(double));

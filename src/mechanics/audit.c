@@ -12,7 +12,10 @@ static void add_body(const bt_system* system, const bt_state* state, int b, bt_a
     bt_rotate(rotation, spin, world);
     bt_cross(q, v, moment);
     audit->kinetic_J += 0.5 * (body->mass_kg * bt_dot(v, v) + bt_dot(v + 3, spin));
-    audit->potential_J -= body->mass_kg * bt_dot(system->gravity_mps2, q);
+    audit->potential_J -= body->mass_kg * bt_dot(state->frame.gravity_mps2, q);
+    if (bt_frame_turns(&state->frame))
+        audit->potential_J +=
+            bt_frame_potential(&state->frame, body->mass_kg, q, rotation, body->inertia);
     bt_add_scaled(audit->momentum_Ns, body->mass_kg, v);
     bt_add_scaled(audit->angular_momentum_Nms, body->mass_kg, moment);
     bt_add_scaled(audit->angular_momentum_Nms, 1, world);

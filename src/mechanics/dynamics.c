@@ -118,15 +118,29 @@ static bool name_bad_element(const bt_system* system, bt_state* state, const bt_
                    motion->time_s);
 }
 
+/// Gravity, and what a frame that turns does to body b.
+static void frame_wrench(const bt_frame* frame, const bt_body* body, bool turns,
+                         const bt_motion* motion, int b, double wrench[6]) {
+    const double* field = frame->gravity_mps2;
+    double turning[3];
+    memset(wrench + 3, 0, 3 * sizeof *wrench);
+    if (turns) {
+        bt_frame_field(frame, motion->q + 7 * b, motion->v + 6 * b, turning);
+        bt_frame_torque(frame, motion->rotation + 9 * b, body->inertia, motion->v + 6 * b + 3,
+                        wrench + 3);
+        field = turning;
+    }
+    for (int i = 0; i < 3; ++i)
+        wrench[i] = body->mass_kg * field[i];
+}
+
 bool bt_forces(const bt_system* system, bt_state* state, double time_s, const double* v,
                bt_failure* failure) {
     double* wrench = bt_work_of(state)->wrench;
     const bt_motion motion = {time_s, state->q, v, state->rotation};
+    const bool turns = bt_frame_turns(&state->frame);
     for (int b = 0; b < system->body_count; ++b)
-        for (int i = 0; i < 3; ++i) {
-            wrench[6 * b + i] = system->bodies[b].mass_kg * system->gravity_mps2[i];
-            wrench[6 * b + 3 + i] = 0;
-        }
+        frame_wrench(&state->frame, &system->bodies[b], turns, &motion, b, wrench + 6 * b);
     for (int i = 0; i < system->element_count; ++i) {
         const bt_element_slot* slot = &system->elements[i];
         slot->element.type->force(&slot->element, &motion, wrench,

@@ -166,7 +166,9 @@ static bool step_second_order(const bt_system* system, bt_state* state, double h
     int worst;
     memcpy(work->rotation_old, state->rotation, sizeof(double) * 9 * n);
     memcpy(work->q_old, state->q, sizeof(double) * 7 * n);
+    // 1. velocities by half the step with the accelerations at its start, positions by the step
     first_kick_and_drift(system, state, h);
+    // 2. the end of the step onto the joints
     if (!close_drift(system, state, h, &worst)) {
         memcpy(state->rotation, work->rotation_old, sizeof(double) * 9 * n);
         first_kick_and_drift(system, state, h);
@@ -174,17 +176,21 @@ static bool step_second_order(const bt_system* system, bt_state* state, double h
             return bt_fail(failure, worst >= 0 ? system->joints[worst].name : "body",
                            "position constraint", end_s);
     }
+    // 3. forces of all elements at the end of the step
     carry_momenta(system, state);
     state->time_s = end_s;
     if (!bt_forces(system, state, end_s, work->v_mean, failure) ||
         !bt_factorise(system, state, failure))
         return false;
+    // 4. velocities by the other half, with joint impulses that keep them on the joints
     for (size_t k = 0; k < 6 * n; ++k)
         work->x[k] += 0.5 * h * work->wrench[k];
     memset(work->x + 6 * n, 0, sizeof(double) * (size_t)system->constraint_count);
     bt_solve(system, state);
     memcpy(state->v, work->x, sizeof(double) * 6 * n);
     bt_close_velocities(system, state);
+    // 5. accelerations and multipliers at the end: [M G^T; G 0] [a; -lambda] = [F; gamma]
+    //    [Peng2023 Eq. 1]
     return bt_accelerations(system, state, failure);
 }
 

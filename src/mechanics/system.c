@@ -232,6 +232,7 @@ bt_status bt_state_create(const bt_system* system, bt_arena* arena, bt_state* st
     lay_out(system, block, state, work);
     state->scratch = state->block = block;
     state->block_size = size;
+    memcpy(state->frame.gravity_mps2, system->gravity_mps2, sizeof system->gravity_mps2);
     for (int i = 0; i < system->body_count; ++i) {
         memcpy(state->q + 7 * i, system->bodies[i].q, 7 * sizeof(double));
         memcpy(state->v + 6 * i, system->bodies[i].v, 6 * sizeof(double));
@@ -248,4 +249,17 @@ void bt_state_copy(const bt_system* system, bt_state* to, const bt_state* from) 
     lay_out(system, to->block, to, work); // the copied pointers were those of `from`
     to->time_s = from->time_s;
     to->steps = from->steps;
+    to->frame = from->frame;
+}
+
+bool bt_state_equal(const bt_system* system, const bt_state* a, const bt_state* b) {
+    const size_t n = (size_t)system->body_count * sizeof(double);
+    const size_t m = (size_t)system->constraint_count * sizeof(double);
+    const size_t outputs = (size_t)system->output_count * sizeof(double);
+    return memcmp(&a->time_s, &b->time_s, sizeof a->time_s) == 0 && a->steps == b->steps &&
+           memcmp(&a->frame, &b->frame, sizeof a->frame) == 0 && memcmp(a->q, b->q, 7 * n) == 0 &&
+           memcmp(a->v, b->v, 6 * n) == 0 && memcmp(a->a, b->a, 6 * n) == 0 &&
+           memcmp(a->lambda, b->lambda, m) == 0 && memcmp(a->applied, b->applied, 6 * n) == 0 &&
+           memcmp(a->output, b->output, outputs) == 0 &&
+           memcmp(bt_work_of(a)->used, bt_work_of(b)->used, 6 * n) == 0;
 }

@@ -29,8 +29,9 @@
 /// (those that return a status want it checked). Springs, dampers and torques are elements:
 /// elements/spring.h and elements/torque.h, or your own bt_element_type.
 ///
-/// Frames. World: inertial. A body's frame has its origin at the centre of mass. Coordinates of a
-/// body: position (x, y, z) in the world and Euler parameters (e0, e1, e2, e3), body to world.
+/// Frames. World: inertial, or the frame that state->frame describes (a deck that moves);
+/// velocities are relative to it. A body's frame has its origin at the centre of mass. Coordinates
+/// of a body: position (x, y, z) in the world and Euler parameters (e0, e1, e2, e3), body to world.
 /// Velocities: of the centre of mass in the world, angular velocity in the body frame.
 /// Wrenches: force in the world at the centre of mass, torque in the body frame.
 #ifndef BT_MECHANICS_SYSTEM_H
@@ -38,6 +39,7 @@
 
 #include "base/arena.h"
 #include "base/diag.h"
+#include "mechanics/frame.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -137,6 +139,7 @@ void bt_system_destroy(bt_system* system);
 int bt_system_add_body(bt_system* system, const bt_body_def* def);
 int bt_system_add_joint(bt_system* system, const bt_joint_def* def);
 int bt_system_add_element(bt_system* system, const bt_element* def);
+/// Gravity of the frame in which a new state starts, see state->frame.
 void bt_system_set_gravity(bt_system* system, const double gravity_mps2[3]);
 
 /// Checks bodies and joints, chooses the elimination order, and finds consistent initial conditions
@@ -162,6 +165,7 @@ int bt_system_element_count(const bt_system* system);
 struct bt_state {
     double time_s;
     int64_t steps;
+    bt_frame frame;   ///< at the end of the coming step; yours to set, starts at rest
     double* q;        ///< [7 * body_count]
     double* v;        ///< [6 * body_count]
     double* a;        ///< [6 * body_count] accelerations at the last evaluation
@@ -178,6 +182,8 @@ struct bt_state {
 BT_CHECKED bt_status bt_state_create(const bt_system* system, bt_arena* arena, bt_state* state);
 size_t bt_state_size(const bt_system* system); ///< bytes of arena it takes
 void bt_state_copy(const bt_system* system, bt_state* to, const bt_state* from);
+/// Whether two states are equal to the bit, in everything that decides how they go on.
+bool bt_state_equal(const bt_system* system, const bt_state* a, const bt_state* b);
 
 typedef enum bt_integrator {
     /// Constrained leapfrog, one force evaluation and one factorisation per step. Conservative
@@ -217,8 +223,10 @@ BT_CHECKED bt_status bt_system_project(const bt_system* system, bt_state* state,
 
 /// Audit, at any time.
 typedef struct bt_audit {
-    double kinetic_J, potential_J;                  ///< potential: gravity and elements with energy
-    double momentum_Ns[3], angular_momentum_Nms[3]; ///< about the world origin
+    /// Kinetic: of the motion seen in the frame. Potential: gravity (less the frame's
+    /// acceleration), centrifugal, elements with energy. Their sum is kept in a constant frame.
+    double kinetic_J, potential_J;
+    double momentum_Ns[3], angular_momentum_Nms[3]; ///< likewise; about the world origin
     /// Largest constraint error over its scale. Positions: the size of the joint (largest of its
     /// arms and its bodies' radii of gyration), or 1 rad. Velocities: largest speed of its bodies.
     double position_residual, velocity_residual;

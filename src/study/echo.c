@@ -4,6 +4,7 @@
 #include "base/units.h"
 #include "study/inputs.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -124,7 +125,8 @@ static void write_uncertainty(FILE* out, const bt_study* study) {
         fprintf(out, "  %s: {distribution: %s", input->path, bt_distribution_names[d.kind]);
         const char* const* names = bt_distribution_parameters(d.kind);
         for (; *names; ++names)
-            write_parameter(out, input, *names, *bt_distribution_parameter(&d, *names));
+            if (!isinf(*bt_distribution_parameter(&d, *names))) // a bound that is not there
+                write_parameter(out, input, *names, *bt_distribution_parameter(&d, *names));
         fputs("}\n", out);
     }
 }

@@ -3,6 +3,7 @@
 #include "base/units.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -101,10 +102,12 @@ double* bt_distribution_parameter(bt_distribution* d, const char* name) {
 }
 
 /// Whether a parameter that is not given has a value all the same: the mean is then the key's own
-/// value, a location is zero.
+/// value, a location is zero, a bound of a truncated normal is infinite.
 static bool may_be_left_out(const bt_distribution* d, const char* name) {
     if (strcmp(name, "mean") == 0)
         return true;
+    if (d->kind == BT_TRUNCATED_NORMAL)
+        return strcmp(name, "lower") == 0 || strcmp(name, "upper") == 0;
     return strcmp(name, "lower") == 0 && (d->kind == BT_WEIBULL || d->kind == BT_EXPONENTIAL);
 }
 
@@ -117,7 +120,8 @@ static void read_parameter(bt_reader* reader, const bt_input* input, const bt_no
     const bool shape = strcmp(name, "shape") == 0;
     // values of the key itself, not widths, nor a location that no sample needs to come near
     const bool width = shape || strcmp(name, "sd") == 0 || strcmp(name, "scale") == 0;
-    const bool ranged = !width && (strcmp(name, "mean") == 0 || !may_be_left_out(d, name));
+    const bool location = d->kind == BT_WEIBULL || d->kind == BT_EXPONENTIAL;
+    const bool ranged = !width && !(location && strcmp(name, "lower") == 0);
     if (value)
         bt_reader_number(reader, shape ? &plain : input->field, value, place, ranged,
                          bt_distribution_parameter(d, name));
@@ -146,6 +150,10 @@ static void read_distribution(bt_reader* reader, const bt_study* study, bt_input
     bt_distribution* d = &input->distribution;
     *d = (bt_distribution){.kind = (bt_distribution_kind)kind};
     d->mean = bt_field_get(input->field, &study->model, input->offset);
+    if (d->kind == BT_TRUNCATED_NORMAL) {
+        d->lower = -INFINITY;
+        d->upper = INFINITY;
+    }
     const char* const* names = bt_distribution_parameters(d->kind);
     bt_reader_known_keys(reader, node, path, kind_key, names);
     for (; *names; ++names)

@@ -11,7 +11,7 @@
 /// knows anything about y; unlike the number of right answers it also tells a near miss from a
 /// confident error, and so tells two classifiers apart on fewer points.
 ///
-/// @param agreement  [n] y_i f_i, finite: positive where the answer is right
-double bt_score_loss(const double* agreement, int n);
+/// @param margin  [n] functional margins y_i f_i, finite: positive where the answer is right
+double bt_score_loss(const double* margin, int n);
 
 #endif

@@ -22,14 +22,14 @@ typedef struct bt_training_set {
     const int* label; ///< [count] +1 engaged, -1 missed
 } bt_training_set;
 
-/// One (C, gamma) of the grid. A cell may be tried on growing parts of the training landings; the
-/// last trial is kept.
+/// One (C, gamma) of the grid. It may be tried on growing parts of the training landings; the last
+/// trial is kept.
 typedef struct bt_grid_point {
     double C, gamma;
     int trained_on; ///< landings of the cross-validation; 0: not tried, its row had stopped gaining
     int correct;    ///< of them, right when left out
-    double loss;    ///< mean cross-entropy of the answers (loss.h); INFINITY: too hard to train
-    int round;      ///< 1, 2, 3: how often its lot came up
+    double loss;    ///< mean cross-entropy of the predictions (loss.h); INFINITY: too hard to train
+    int round;      ///< 1, 2, 3: how many rounds it was in
 } bt_grid_point;
 
 enum { BT_GRID_MAX = BT_LIST_MAX * BT_LIST_MAX };
@@ -40,7 +40,7 @@ typedef struct bt_surrogate_scores {
     int holdout_count, holdout_correct;
     bt_interval holdout_ci95; ///< Clopper-Pearson, of the hold-out accuracy
     int confusion[2][2];      ///< hold-out counts [truth][answer], 0 missed, 1 engaged
-    int cv_count, cv_correct; ///< of the chosen cell
+    int cv_count, cv_correct; ///< of the chosen grid point
     double seconds;           ///< model selection and training, wall clock
 } bt_surrogate_scores;
 
@@ -62,27 +62,52 @@ typedef struct bt_surrogate {
 /// How a surrogate came about: the whole grid.
 typedef struct bt_grid {
     int count;
-    bt_grid_point cell[BT_GRID_MAX]; ///< C varies fastest; the chosen one is at `best`
+    bt_grid_point point[BT_GRID_MAX]; ///< C varies fastest; the chosen one is at `best`
     int best;
 } bt_grid;
 
-/// Trains a surrogate: keeps the hold-out share apart (by keyed random numbers, in each class
-/// alike), standardises, weighs the inputs (relevance.h), chooses (C, gamma) by k-fold
-/// cross-validation over the grid, trains on everything but the hold-out, and scores. The same bits
-/// for any number of threads.
+/// What model selection chooses: everything that a fit needs beside the landings.
+typedef struct bt_hyperparameters {
+    double C, gamma;
+    double weight[BT_INPUT_MAX]; ///< of the inputs; powers of sqrt 2
+    int cv_count, cv_correct;    ///< of the chosen grid point
+} bt_hyperparameters;
+
+/// Model selection: standardises the landings, weighs the inputs (relevance.h) and chooses
+/// (C, gamma) by k-fold cross-validation over the grid. The same bits for any number of threads.
 ///
-/// The grid is tried in up to three rounds: every cell on about 2,000 landings, the best third of
+/// The grid is tried in up to three rounds: every point on about 2,000 landings, the best third of
 /// them on about 6,000, the best three on about 16,000. Better is less loss (loss.h). Along a row
 /// of constant gamma C rises, and the row is left when a step gained less than 1 % of the loss, or
-/// when a training took more than 10^6 iterations, which rules the cell out. The cell of least
-/// loss in the last round is chosen.
+/// when a training took more than 10^6 iterations, which rules the point out. The point of least
+/// loss in the last round is chosen. Weights are compared at the grid's values nearest to C = 1000
+/// and gamma = 0.1.
 ///
-/// @param params   grid, folds, hold-out share; empty lists mean the default grid
+/// @param params   grid and folds; empty lists mean the default grid
+/// @param holdout  share of the landings of each class that is left out of everything (the same
+///                 that bt_surrogate_fit leaves out with this seed); 0: none
 /// @param threads  0: one per core
 /// @param grid     may be NULL
 /// @return BT_OK; BT_ERR_ARG (no landings, more than BT_INPUT_MAX inputs, a label other than +1 or
-///         -1, a value that is not finite; said in diag); BT_ERR_MEMORY. On BT_OK the caller owns
-///         *out: bt_surrogate_destroy. The caller fills path and study_hash.
+///         -1, a value that is not finite; said in diag); BT_ERR_MEMORY
+BT_CHECKED bt_status bt_surrogate_select(const bt_training_set* set,
+                                         const bt_surrogate_params* params, double holdout,
+                                         uint64_t seed, int threads, bt_hyperparameters* out,
+                                         bt_grid* grid, bt_diag* diag);
+
+/// Fits one classifier with given hyperparameters on everything but the hold-out (kept apart by
+/// keyed random numbers, in each class alike), and scores it. A refit on more landings costs this
+/// and no selection.
+///
+/// @param holdout  share kept out of training to measure the accuracy on; 0: none
+/// @return as bt_surrogate_select. On BT_OK the caller owns *out: bt_surrogate_destroy, and fills
+///         path and study_hash. Landings of one class, and a hold-out that lacks a class, are
+///         warnings in diag.
+BT_CHECKED bt_status bt_surrogate_fit(const bt_training_set* set, const bt_hyperparameters* chosen,
+                                      double holdout, uint64_t seed, bt_surrogate* out,
+                                      bt_diag* diag);
+
+/// Selection and fit, with the hold-out of the params.
 BT_CHECKED bt_status bt_surrogate_train(const bt_training_set* set,
                                         const bt_surrogate_params* params, uint64_t seed,
                                         int threads, bt_surrogate* out, bt_grid* grid,

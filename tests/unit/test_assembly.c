@@ -265,6 +265,36 @@ static void approximate_positions_are_closed_in_the_mass_metric(void** state) {
     rig_close(&r);
 }
 
+/// A hinged rod that is told to turn at 6 rad/s, its centre to move with `speed` (3.6 m/s is
+/// right).
+static void open_turning_rod(rig* r, double speed) {
+    rig_open(r, 0, 0, 0);
+    bt_system_add_body(r->system, &(bt_body_def){.name = "rod",
+                                                 .mass_kg = 2,
+                                                 .inertia_kgm2 = {0.1, 0.1, 0.1},
+                                                 .position_m = {0.6, 0, 0},
+                                                 .attitude = {1, 0, 0, 0},
+                                                 .velocity_mps = {0, speed, 0},
+                                                 .spin_radps = {0, 0, 6}});
+    rig_hinge(r, "pivot", BT_GROUND, 0, 0, 0, -0.6, 0);
+    rig_assemble(r);
+}
+
+static void velocities_that_break_the_joints_are_changed_and_said_so(void** state) {
+    (void)state;
+    rig r;
+    open_turning_rod(&r, 0);
+    // nearest in the mass metric: the angular momentum about the pivot is kept
+    BT_ASSERT_NEAR(rig_rate(&r, 0), 0.1 * 6 / (0.1 + 2 * 0.6 * 0.6), 1e-12, 0);
+    assert_int_equal(r.notes, 1);
+    assert_non_null(strstr(r.text, "body 'rod': the given velocities break the joints"));
+    assert_non_null(strstr(r.text, "from 6 to 0.7317 rad/s"));
+    rig_close(&r);
+    open_turning_rod(&r, 3.6 * 1.005);
+    assert_int_equal(r.notes, 0); // half a per cent
+    rig_close(&r);
+}
+
 static void names_are_found(void** state) {
     (void)state;
     rig r;
@@ -312,6 +342,7 @@ int main(void) {
         cmocka_unit_test(aligned_hinges_of_a_door_are_redundant_not_wrong),
         cmocka_unit_test(bodies_without_joints_are_free),
         cmocka_unit_test(approximate_positions_are_closed_in_the_mass_metric),
+        cmocka_unit_test(velocities_that_break_the_joints_are_changed_and_said_so),
         cmocka_unit_test(names_are_found),
         cmocka_unit_test(state_of_an_unassembled_system_is_refused),
     };

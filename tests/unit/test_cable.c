@@ -81,6 +81,7 @@ static void span_inside_the_supports_and_bad_mesh_are_refused(void** state) {
     assert_refused(&p, "deck.cable.mesh.medium_half_width", "at least 3 m");
 }
 
+/// Eq. 11: finite segments.
 static void mesh_fills_the_span_evenly_graded_with_joints_over_the_supports(void** state) {
     (void)state;
     static double length[BT_CABLE_SEGMENTS_MAX];

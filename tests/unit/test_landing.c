@@ -287,7 +287,7 @@ static void the_margin_goes_through_zero_where_the_label_changes(void** state) {
     static const double distances[] = {1, 2, 8, 8.25}, frictions[] = {0, 0.2, 0.4};
     const bt_model_params reference = REFERENCE("aircraft.hook.profile.throat_length=35 mm");
     bt_lander* lander = new_lander();
-    for (int k = 0; k < 4; ++k) { // twice a rope at rest, twice one that was beaten down and rises
+    for (int k = 0; k < 4; ++k) { // twice a rope at rest, twice one that was knocked down and rises
         double before = NAN, last_caught = NAN, first_missed = NAN;
         for (double lip = 0.022; lip <= 0.0321; lip += 0.001) {
             const bt_landing_result r = with_lip(lander, &reference, distances[k], 0.2, lip);

@@ -75,7 +75,7 @@ static bt_landing_result result_of(int run, bt_outcome outcome) {
 static void add(fixture* f, bt_ledger* ledger, int run, bt_outcome outcome) {
     const bt_landing_result r = result_of(run, outcome);
     const double x[4] = {run + 0.1, run + 0.2, run + 0.3, run + 0.4};
-    assert_int_equal(bt_ledger_add(ledger, run, x, &r, &f->diag), BT_OK);
+    assert_int_equal(bt_ledger_add(ledger, run, x, NAN, &r, &f->diag), BT_OK);
 }
 
 static int64_t count(fixture* f, bt_ledger* ledger) {
@@ -149,7 +149,7 @@ static void the_hash_does_not_depend_on_order_or_wall_time(void** state) {
             bt_landing_result r = result_of(run, BT_MISSED);
             r.wall_s = k + i;
             const double x[4] = {1, 2, 3, run};
-            assert_int_equal(bt_ledger_add(ledger, run, x, &r, &f->diag), BT_OK);
+            assert_int_equal(bt_ledger_add(ledger, run, x, NAN, &r, &f->diag), BT_OK);
         }
         assert_int_equal(bt_ledger_hash(ledger, &hash[k], &f->diag), BT_OK);
         bt_ledger_close(ledger);
@@ -166,7 +166,7 @@ static void the_hash_sees_every_result(void** state) {
         bt_landing_result r = result_of(0, BT_MISSED);
         r.margin_m = k ? nextafter(r.margin_m, 1) : r.margin_m;
         const double x[4] = {1, 2, 3, 4};
-        assert_int_equal(bt_ledger_add(ledger, 0, x, &r, &f->diag), BT_OK);
+        assert_int_equal(bt_ledger_add(ledger, 0, x, NAN, &r, &f->diag), BT_OK);
         assert_int_equal(bt_ledger_hash(ledger, &hash[k], &f->diag), BT_OK);
         bt_ledger_close(ledger);
     }
@@ -367,7 +367,7 @@ static int fill_until_full(fixture* f) {
     for (int run = 0; status == BT_OK && run < 10000; ++run) {
         const bt_landing_result r = result_of(run, BT_MISSED);
         const double x[4] = {run, run, run, run};
-        status = bt_ledger_add(ledger, run, x, &r, &f->diag);
+        status = bt_ledger_add(ledger, run, x, NAN, &r, &f->diag);
         if (status == BT_OK && run % 50 == 49) {
             status = bt_ledger_commit(ledger, &f->diag);
             committed = status == BT_OK ? run + 1 : committed;
@@ -495,10 +495,190 @@ static void a_remark_is_kept_and_replaced(void** state) {
     bt_ledger_close(ledger);
 }
 
+static void remarks_and_density_come_back_to_the_bit(void** state) {
+    fixture* f = *state;
+    bt_ledger* ledger = opened(f);
+    bt_landing_result r = result_of(1, BT_ENGAGED);
+    const double x[4] = {1, 2, 3, 4};
+    bt_remarks_note(&r.remarks, BT_REMARK_TYRE_ON_RIM_LEFT, 1.0 / 3);
+    assert_int_equal(bt_ledger_add(ledger, 1, x, -1.0 / 7, &r, &f->diag), BT_OK);
+    add(f, ledger, 2, BT_MISSED);
+    bt_ledger_row row;
+    assert_int_equal(bt_ledger_get(ledger, 1, &row, &f->diag), BT_OK);
+    BT_ASSERT_NEAR(row.log_density, -1.0 / 7, 0, 0);
+    assert_memory_equal(&row.result.remarks, &r.remarks, sizeof r.remarks);
+    assert_int_equal(bt_ledger_get(ledger, 2, &row, &f->diag), BT_OK);
+    assert_true(isnan(row.log_density));
+    assert_int_equal(row.result.remarks.seen, 0);
+    bt_ledger_close(ledger);
+}
+
+/// Runs SQL beside the library, as a user may.
+static void sql(fixture* f, const char* text) {
+    sqlite3* db = NULL;
+    assert_int_equal(sqlite3_open(f->path, &db), SQLITE_OK);
+    assert_int_equal(sqlite3_exec(db, text, NULL, NULL, NULL), SQLITE_OK);
+    sqlite3_close(db);
+}
+
+static int64_t sql_count(fixture* f, const char* text) {
+    sqlite3* db = NULL;
+    sqlite3_stmt* statement = NULL;
+    assert_int_equal(sqlite3_open(f->path, &db), SQLITE_OK);
+    assert_int_equal(sqlite3_prepare_v2(db, text, -1, &statement, NULL), SQLITE_OK);
+    assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
+    const int64_t number = sqlite3_column_int64(statement, 0);
+    sqlite3_finalize(statement);
+    sqlite3_close(db);
+    return number;
+}
+
+static void a_column_that_a_user_adds_is_left_alone(void** state) {
+    fixture* f = *state;
+    bt_ledger* ledger = opened(f);
+    add(f, ledger, 1, BT_MISSED);
+    assert_int_equal(bt_ledger_commit(ledger, &f->diag), BT_OK);
+    bt_ledger_close(ledger);
+    sql(f, "ALTER TABLE runs ADD COLUMN my_remark TEXT; UPDATE runs SET my_remark = 'look'");
+    ledger = opened(f);
+    add(f, ledger, 2, BT_MISSED);
+    assert_int_equal(bt_ledger_commit(ledger, &f->diag), BT_OK);
+    bt_ledger_row row;
+    assert_int_equal(bt_ledger_get(ledger, 2, &row, &f->diag), BT_OK);
+    assert_true(row.result.state_hash == result_of(2, BT_MISSED).state_hash);
+    bt_ledger_close(ledger);
+    assert_int_equal(sql_count(f, "SELECT count(*) FROM runs WHERE my_remark = 'look'"), 1);
+}
+
+static void a_result_that_the_file_does_not_have_reads_empty_and_is_added(void** state) {
+    fixture* f = *state;
+    bt_ledger* ledger = opened(f);
+    add(f, ledger, 1, BT_MISSED);
+    assert_int_equal(bt_ledger_commit(ledger, &f->diag), BT_OK);
+    bt_ledger_close(ledger);
+    sql(f, "DROP VIEW landings; DROP VIEW misses; DROP VIEW failed;"
+           "ALTER TABLE runs DROP COLUMN throat_force_peak_N");
+
+    bt_ledger_row row;
+    assert_int_equal(bt_ledger_open(f->path, &f->study, BT_LEDGER_READ, &ledger, &f->diag), BT_OK);
+    assert_int_equal(bt_ledger_get(ledger, 1, &row, &f->diag), BT_OK);
+    assert_true(isnan(row.result.throat_force_peak_N));
+    BT_ASSERT_NEAR(row.result.margin_m, result_of(1, BT_MISSED).margin_m, 0, 0);
+    bt_ledger_close(ledger);
+
+    ledger = opened(f);
+    add(f, ledger, 2, BT_MISSED);
+    assert_int_equal(bt_ledger_get(ledger, 2, &row, &f->diag), BT_OK);
+    BT_ASSERT_NEAR(row.result.throat_force_peak_N, 1e5 + 2, 0, 0);
+    bt_ledger_close(ledger);
+}
+
+static void the_views_sort_the_runs(void** state) {
+    fixture* f = *state;
+    bt_ledger* ledger = opened(f);
+    static const bt_outcome outcomes[] = {BT_ENGAGED, BT_ENGAGED, BT_ENGAGED,
+                                          BT_MISSED,  BT_MISSED,  BT_FAILED};
+    for (int i = 0; i < 6; ++i)
+        add(f, ledger, i, outcomes[i]);
+    assert_int_equal(bt_ledger_commit(ledger, &f->diag), BT_OK);
+    bt_ledger_close(ledger);
+    assert_int_equal(sql_count(f, "SELECT count(*) FROM landings"), 5);
+    assert_int_equal(sql_count(f, "SELECT count(margin_m) FROM misses"), 2);
+    assert_int_equal(sql_count(f, "SELECT run FROM failed"), 5);
+}
+
+/// In a child: dies with a transaction so large that part of it is in the file already, and the
+/// journal that takes it back beside it.
+static void die_inside_a_commit(fixture* f) {
+    bt_ledger* ledger = opened(f);
+    for (int run = 100; run < 12000; ++run)
+        add(f, ledger, run, BT_MISSED);
+    _exit(0);
+}
+
+static void what_a_killed_writer_left_is_rolled_back_for_readers(void** state) {
+    fixture* f = *state;
+    char journal[4200];
+    int code = 0;
+    bt_ledger* ledger = opened(f);
+    for (int run = 0; run < 10; ++run)
+        add(f, ledger, run, BT_ENGAGED);
+    assert_int_equal(bt_ledger_commit(ledger, &f->diag), BT_OK);
+    bt_ledger_close(ledger);
+    const pid_t child = fork();
+    if (child == 0)
+        die_inside_a_commit(f);
+    assert_int_equal(waitpid(child, &code, 0), child);
+    snprintf(journal, sizeof journal, "%s-journal", f->path);
+    assert_int_equal(access(journal, F_OK), 0);
+
+    assert_int_equal(bt_ledger_open(f->path, &f->study, BT_LEDGER_READ, &ledger, &f->diag), BT_OK);
+    assert_int_equal(count(f, ledger), 10);
+    bt_ledger_close(ledger);
+}
+
+static void a_reader_cannot_write(void** state) {
+    fixture* f = *state;
+    bt_ledger_close(opened(f));
+    bt_ledger* ledger = NULL;
+    const bt_landing_result r = result_of(1, BT_MISSED);
+    const double x[4] = {1, 2, 3, 4};
+    assert_int_equal(bt_ledger_open(f->path, &f->study, BT_LEDGER_READ, &ledger, &f->diag), BT_OK);
+    assert_int_equal(bt_ledger_add(ledger, 1, x, NAN, &r, &f->diag), BT_ERR_IO);
+    assert_int_equal(count(f, ledger), 0);
+    bt_ledger_close(ledger);
+}
+
+static void a_ledger_of_the_first_version_is_refused_with_the_way_out(void** state) {
+    fixture* f = *state;
+    bt_ledger_close(opened(f));
+    sql(f, "PRAGMA user_version = 1");
+    assert_int_equal(open_status(f, BT_LEDGER_CREATE), BT_ERR_IO);
+    assert_non_null(strstr(f->messages.last, "written by bolter 0.1"));
+    assert_non_null(strstr(f->messages.last, "use another directory with -o"));
+    assert_int_equal(open_status(f, BT_LEDGER_READ), BT_ERR_IO);
+}
+
+static void a_directory_in_place_of_a_ledger_is_said(void** state) {
+    fixture* f = *state;
+    bt_ledger* ledger = opened(f);
+    int64_t added;
+    assert_int_equal(bt_ledger_merge(ledger, f->directory, &added, &f->diag), BT_ERR_IO);
+    assert_non_null(strstr(f->messages.last, "this is a directory"));
+    assert_non_null(strstr(f->messages.last, "/campaign.sqlite"));
+    bt_ledger_close(ledger);
+}
+
+static void a_path_longer_than_sqlite_takes_is_said(void** state) {
+    fixture* f = *state;
+    char name[101];
+    memset(name, 'x', 100);
+    name[100] = '\0';
+    toy_path(f->path, f->directory, "");
+    for (int i = 0; i < 5; ++i) {
+        strcat(f->path, name);
+        assert_int_equal(mkdir(f->path, 0755), 0);
+        strcat(f->path, "/");
+    }
+    strcat(f->path, BT_LEDGER_NAME);
+    assert_int_equal(open_status(f, BT_LEDGER_CREATE), BT_ERR_IO);
+    assert_non_null(strstr(f->messages.last, "SQLite opens"));
+    assert_null(strstr(f->messages.last, "may you read"));
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        TEST(remarks_and_density_come_back_to_the_bit),
+        TEST(a_column_that_a_user_adds_is_left_alone),
+        TEST(a_result_that_the_file_does_not_have_reads_empty_and_is_added),
+        TEST(the_views_sort_the_runs),
+        TEST(what_a_killed_writer_left_is_rolled_back_for_readers),
+        TEST(a_reader_cannot_write),
+        TEST(a_ledger_of_the_first_version_is_refused_with_the_way_out),
+        TEST(a_directory_in_place_of_a_ledger_is_said),
+        TEST(a_path_longer_than_sqlite_takes_is_said),
         TEST(a_run_comes_back_to_the_bit),
         TEST(a_failed_run_is_counted_and_never_a_label),
         TEST(the_hash_does_not_depend_on_order_or_wall_time),

@@ -6,13 +6,13 @@
 /// loss is the entropy of that share.
 static void loss_of_equal_answers_is_the_entropy_of_their_share(void** state) {
     (void)state;
-    double agreement[100];
+    double margin[100];
     for (int wrong = 1; wrong < 50; wrong += 6) {
         for (int i = 0; i < 100; ++i)
-            agreement[i] = i < wrong ? -1 : 1;
+            margin[i] = i < wrong ? -1 : 1;
         const double p = wrong / 100.0;
         const double entropy = -100 * (p * log(p) + (1 - p) * log(1 - p));
-        BT_ASSERT_NEAR(bt_score_loss(agreement, 100), entropy, 1e-12, 0);
+        BT_ASSERT_NEAR(bt_score_loss(margin, 100), entropy, 1e-12, 0);
     }
 }
 

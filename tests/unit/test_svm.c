@@ -2,6 +2,7 @@
 
 #include "base/rng.h"
 #include "folder.h"
+#include "messages.h"
 #include "surrogate/predictor.h"
 
 #include <inttypes.h>
@@ -94,7 +95,7 @@ static void eq19_two_points_have_the_closed_form_solution(void** state) {
 
 /// The conditions that make a machine the optimum of Eq. 19: 0 < alpha <= C, sum y alpha = 0,
 /// y f = 1 on free vectors, y f <= 1 on bounded ones, y f >= 1 elsewhere, to LIBSVM's tolerance.
-static void eq19_trained_machine_satisfies_the_optimality_conditions(void** state) {
+static void eq19_trained_classifier_satisfies_the_optimality_conditions(void** state) {
     (void)state;
     sample data = make_sample(600, 3, 0.05, 2);
     bt_surrogate_params params = params_of(10, 0.5);
@@ -212,7 +213,7 @@ static void training_learns_a_curved_band_and_the_holdout_says_so(void** state) 
     assert_true(right / 20000.0 > wide.least && right / 20000.0 < wide.greatest);
     // the grid is whole: six penalties times five widths, and the chosen one among the tried
     assert_int_equal(grid->count, 30);
-    const bt_grid_point* best = &grid->cell[grid->best];
+    const bt_grid_point* best = &grid->point[grid->best];
     assert_true(best->trained_on > 0 && best->C == s.C && best->gamma == s.gamma);
     assert_true((double)best->correct / best->trained_on > 0.97);
     int confusion = 0;
@@ -224,6 +225,53 @@ static void training_learns_a_curved_band_and_the_holdout_says_so(void** state) 
     bt_surrogate_destroy(&s);
     free_sample(&data);
     free_sample(&fresh);
+}
+
+/// A fit with what a selection chose is the classifier that both together train; without a hold-out
+/// it learns from every landing and has no share of right answers on others.
+static void a_refit_costs_a_fit_and_gives_the_same_classifier(void** state) {
+    (void)state;
+    sample data = make_sample(600, 2, 0, 5);
+    const bt_surrogate_params params = params_of(0, 0);
+    bt_surrogate whole, again, all;
+    bt_hyperparameters chosen;
+    assert_int_equal(bt_surrogate_train(&data.set, &params, 1, 2, &whole, NULL, NULL), BT_OK);
+    assert_int_equal(
+        bt_surrogate_select(&data.set, &params, params.holdout, 1, 2, &chosen, NULL, NULL), BT_OK);
+    assert_int_equal(bt_surrogate_fit(&data.set, &chosen, params.holdout, 1, &again, NULL), BT_OK);
+    assert_int_equal(whole.sv_count, again.sv_count);
+    assert_memory_equal(whole.coef, again.coef, (size_t)whole.sv_count * sizeof *whole.coef);
+    assert_memory_equal(whole.scale, again.scale, sizeof whole.scale);
+    assert_int_equal(whole.scores.holdout_correct, again.scores.holdout_correct);
+    assert_int_equal(bt_surrogate_fit(&data.set, &chosen, 0, 1, &all, NULL), BT_OK);
+    assert_int_equal(all.scores.train_count, 600);
+    assert_int_equal(all.scores.holdout_count, 0);
+    assert_true(isnan(bt_surrogate_holdout_accuracy(&all.scores)));
+    bt_surrogate_destroy(&whole);
+    bt_surrogate_destroy(&again);
+    bt_surrogate_destroy(&all);
+    free_sample(&data);
+}
+
+/// One landing, or one miss among many: what the hold-out cannot tell is said.
+static void a_holdout_without_a_class_is_said(void** state) {
+    (void)state;
+    sample data = make_sample(300, 2, 0, 5);
+    for (int i = 0; i < 300; ++i)
+        data.label[i] = i ? 1 : -1;
+    const bt_surrogate_params params = params_of(10, 1);
+    messages said = {{0}};
+    bt_diag diag = {messages_add, &said, 0, 0};
+    bt_surrogate s;
+    assert_int_equal(bt_surrogate_train(&data.set, &params, 1, 1, &s, NULL, &diag), BT_OK);
+    assert_non_null(strstr(said.text, "no missed landing is among the 60 held out"));
+    bt_surrogate_destroy(&s);
+    bt_training_set one = data.set;
+    one.count = 1;
+    assert_int_equal(bt_surrogate_train(&one, &params, 1, 1, &s, NULL, &diag), BT_OK);
+    assert_non_null(strstr(said.text, "too few to hold any out"));
+    bt_surrogate_destroy(&s);
+    free_sample(&data);
 }
 
 /// Labels by the toss of a coin can be learnt by heart, not learnt: only the hold-out shows it.
@@ -289,8 +337,8 @@ static void training_gives_the_same_bits_for_1_2_and_3_threads(void** state) {
     for (int i = 1; i < 3; ++i) {
         assert_same_surrogate(&s[0], &s[i]);
         assert_int_equal(grids[0].best, grids[i].best);
-        assert_memory_equal(grids[0].cell, grids[i].cell,
-                            (size_t)grids[0].count * sizeof *grids[0].cell);
+        assert_memory_equal(grids[0].point, grids[i].point,
+                            (size_t)grids[0].count * sizeof *grids[0].point);
     }
     for (int i = 0; i < 3; ++i)
         bt_surrogate_destroy(&s[i]);
@@ -464,7 +512,7 @@ static void a_thin_oblique_band_is_seen(void** state) {
 
 /// A tenth of the labels turned: at C = 3e5 a fold takes some 10^6 iterations, which is too hard.
 /// The row ends there, before LIBSVM would give up and print, and another cell is chosen.
-static void a_machine_that_does_not_converge_is_not_chosen_and_nothing_is_printed(void** state) {
+static void a_classifier_that_does_not_converge_is_not_chosen_and_nothing_is_printed(void** state) {
     (void)state;
     char path[512];
     snprintf(path, sizeof path, "%s/stderr", folder);
@@ -488,9 +536,9 @@ static void a_machine_that_does_not_converge_is_not_chosen_and_nothing_is_printe
     assert_int_equal(ftell(heard), 0);
     fclose(heard);
     unlink(path);
-    assert_true(isinf(grid->cell[1].loss));
-    assert_int_equal(grid->cell[2].trained_on, 0);
-    assert_true(grid->best == 0 && isfinite(grid->cell[0].loss) && s.C == 10);
+    assert_true(isinf(grid->point[1].loss));
+    assert_int_equal(grid->point[2].trained_on, 0);
+    assert_true(grid->best == 0 && isfinite(grid->point[0].loss) && s.C == 10);
     free(grid);
     bt_surrogate_destroy(&s);
     free_sample(&data);
@@ -694,8 +742,10 @@ static void a_folder_that_is_not_there_is_an_error_in_both_directions(void** sta
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eq19_two_points_have_the_closed_form_solution),
-        cmocka_unit_test(eq19_trained_machine_satisfies_the_optimality_conditions),
+        cmocka_unit_test(eq19_trained_classifier_satisfies_the_optimality_conditions),
         cmocka_unit_test(labels_equal_libsvm_on_a_hundred_thousand_points),
+        cmocka_unit_test(a_refit_costs_a_fit_and_gives_the_same_classifier),
+        cmocka_unit_test(a_holdout_without_a_class_is_said),
         cmocka_unit_test(training_learns_a_curved_band_and_the_holdout_says_so),
         cmocka_unit_test(holdout_of_coin_tosses_is_one_half_however_well_they_are_remembered),
         cmocka_unit_test(label_noise_limits_the_holdout_accuracy),
@@ -705,7 +755,7 @@ int main(void) {
         cmocka_unit_test(an_input_that_never_varies_changes_nothing),
         cmocka_unit_test(an_input_with_finer_structure_gets_more_weight_and_accuracy_rises),
         cmocka_unit_test(a_thin_oblique_band_is_seen),
-        cmocka_unit_test(a_machine_that_does_not_converge_is_not_chosen_and_nothing_is_printed),
+        cmocka_unit_test(a_classifier_that_does_not_converge_is_not_chosen_and_nothing_is_printed),
         cmocka_unit_test(unsound_landings_are_refused),
         cmocka_unit_test(model_file_gives_every_bit_back),
         cmocka_unit_test(model_file_without_weights_is_read_with_weights_one),

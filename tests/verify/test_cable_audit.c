@@ -87,6 +87,7 @@ static void undamped_energy_is_bounded_at_the_stable_step(void** state) {
     rope_close(&r);
 }
 
+/// Eqs. 13, 15, 17.
 static void damped_energy_never_rises(void** state) {
     (void)state;
     bt_cable_def def = rope_def(80, 4);

@@ -123,6 +123,7 @@ static void bend(int count, double load, double out[3]) {
     rope_close(&r);
 }
 
+/// Eq. 14.
 static void elastica_tip_of_a_cantilever_large_rotation(void** state) {
     (void)state;
     const double cases[4][4] = {
@@ -171,6 +172,7 @@ static void roll_up_to_a_full_circle_by_an_end_moment(void** state) {
     rope_close(&r);
 }
 
+/// Eq. 16.
 static void twist_of_a_rod_under_an_end_torque(void** state) {
     (void)state;
     const int count = 20, last = count - 1;

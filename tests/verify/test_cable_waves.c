@@ -67,6 +67,7 @@ static void string_frequencies_converge_to_fourth_order(void** state) {
     }
 }
 
+/// Eq. 14: K0 = EI.
 static void tensioned_wire_frequencies_with_bending(void** state) {
     (void)state;
     const double length = 12, tension = 24e3, mu = 5.536;
@@ -87,6 +88,7 @@ static void tensioned_wire_frequencies_with_bending(void** state) {
     }
 }
 
+/// Eq. 12: K0 = EA, seen as sqrt(EA / mass per length).
 static void longitudinal_wave_speed_from_standing_waves(void** state) {
     (void)state;
     const double length = 12;
@@ -147,6 +149,7 @@ static double front_position(const rope* r, double level, double from) {
     return NAN;
 }
 
+/// Eqs. 12, 13.
 static void longitudinal_front_speed_force_and_reflection(void** state) {
     (void)state;
     const double length = 60, pull = -1.0; /* m/s, away from the rope */
@@ -466,6 +469,7 @@ static void the_force_on_a_body_that_strikes_the_middle(void** state) {
 
 /// Torque at the free end: a front of c = sqrt(GJ / J), spin M / (J c) behind it, torque doubled by
 /// a clamped end.
+/// Eq. 16: K0 = GJ.
 static void torsional_front_speed_spin_and_reflection(void** state) {
     (void)state;
     const double length = 10, torque = 0.5;

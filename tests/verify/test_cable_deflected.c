@@ -141,7 +141,7 @@ static void what_the_hook_meets_converges_with_the_segments(void** state) {
         print_message("height at y = %g m over 150 ms: doubled segments %.2f mm, defaults %.2f mm "
                       "from halved ones (rms); lowest %.1f mm\n",
                       y, 1e3 * sqrt(rms[0]), 1e3 * sqrt(rms[1]), 1e3 * lowest);
-        assert_true(lowest < 0.03); /* it was beaten flat */
+        assert_true(lowest < 0.03); /* it was knocked flat */
         assert_true(sqrt(rms[1]) < 1e-3);
         assert_true(rms[1] < 0.1 * rms[0]);
     }

@@ -1,0 +1,58 @@
+/// What the sources of the ledger share: the handle, and SQL with errors that people understand.
+#ifndef BT_CAMPAIGN_LEDGER_PARTS_H
+#define BT_CAMPAIGN_LEDGER_PARTS_H
+
+#include "campaign/ledger.h"
+
+#include "base/directory.h"
+
+#include <sqlite3.h>
+
+struct bt_ledger {
+    sqlite3* db;
+    sqlite3_stmt* insert;
+    char* select; ///< "SELECT ... FROM runs", every column by name; owned
+    char path[BT_FILE_PATH_MAX];
+    const bt_study* study;
+    bt_axes axes;
+    bool in_transaction;
+};
+
+static inline bt_where bt_ledger_place(const bt_ledger* ledger) {
+    return (bt_where){.file = ledger->path};
+}
+
+/// The path of an axis: the name of its column.
+const char* bt_ledger_axis(const bt_ledger* ledger, int axis);
+
+/// The columns of the result that the ledger keeps: all but those of the second bounce.
+static inline bool bt_ledger_keeps(const bt_result_column* column) {
+    return column->bounce < 2;
+}
+
+/// Reports what SQLite says of the last call, in the words of the person who has to act on it.
+/// Returns BT_ERR_IO.
+bt_status bt_ledger_sql_error(const bt_ledger* ledger, const char* what, bt_diag* diag);
+
+/// Runs SQL that gives no rows; `what` begins the message ("cannot write").
+BT_CHECKED bt_status bt_ledger_execute(bt_ledger* ledger, const char* sql, const char* what,
+                                       bt_diag* diag);
+
+/// The same for a text put together in memory, which is consumed.
+BT_CHECKED bt_status bt_ledger_execute_text(bt_ledger* ledger, sqlite3_str* text, bt_diag* diag);
+
+/// The first column of the first row, as a number.
+BT_CHECKED bt_status bt_ledger_ask(bt_ledger* ledger, const char* sql, int64_t* answer,
+                                   bt_diag* diag);
+
+/// Drops what was not committed.
+void bt_ledger_roll_back(bt_ledger* ledger);
+
+/// Makes the tables and views of a new ledger, inside the caller's transaction.
+BT_CHECKED bt_status bt_ledger_make_tables(bt_ledger* ledger, bt_diag* diag);
+
+/// Finds which columns the table of runs has; those that this version added since are added to the
+/// file when it is open for writing, and read as empty when it is not. Prepares ledger->select.
+BT_CHECKED bt_status bt_ledger_bind_columns(bt_ledger* ledger, bool writing, bt_diag* diag);
+
+#endif

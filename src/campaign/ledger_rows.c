@@ -1,0 +1,242 @@
+#include "campaign/ledger_parts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// --- writing --------------------------------------------------------------------------------
+
+static bt_status prepare_insert(bt_ledger* ledger, bt_diag* diag) {
+    sqlite3_str* text = sqlite3_str_new(ledger->db);
+    int count = 3;
+    sqlite3_str_appendall(text, "INSERT INTO runs(run, log_density, status");
+    for (int i = 0; i < ledger->axes.count; ++i, ++count)
+        sqlite3_str_appendf(text, ", \"%w\"", bt_ledger_axis(ledger, i));
+    for (int i = 0; i < bt_result_column_count; ++i)
+        if (bt_ledger_keeps(&bt_result_columns[i])) {
+            sqlite3_str_appendf(text, ", %s", bt_result_columns[i].name);
+            ++count;
+        }
+    sqlite3_str_appendall(text, ") VALUES (?");
+    while (--count > 0)
+        sqlite3_str_appendall(text, ", ?");
+    sqlite3_str_appendall(text, ")");
+    char* sql = sqlite3_str_finish(text);
+    if (!sql)
+        return BT_ERR_MEMORY;
+    const int code =
+        sqlite3_prepare_v3(ledger->db, sql, -1, SQLITE_PREPARE_PERSISTENT, &ledger->insert, NULL);
+    sqlite3_free(sql);
+    return code == SQLITE_OK ? BT_OK : bt_ledger_sql_error(ledger, "cannot write", diag);
+}
+
+static int bind_text(sqlite3_stmt* s, int at, const char* text) {
+    return *text ? sqlite3_bind_text(s, at, text, -1, SQLITE_TRANSIENT) : sqlite3_bind_null(s, at);
+}
+
+static int bind_remarks(sqlite3_stmt* s, int at, const bt_remarks* remarks) {
+    char text[BT_REMARKS_TEXT_SIZE];
+    bt_remarks_print(remarks, text, sizeof text);
+    return bind_text(s, at, text);
+}
+
+/// A NaN is stored as NULL; a failed run has neither outcome nor mode.
+static int bind_column(sqlite3_stmt* s, int at, const bt_result_column* c,
+                       const bt_landing_result* result) {
+    const char* member = (const char*)result + c->offset;
+    const bool failed = result->outcome == BT_FAILED;
+    switch (c->kind) {
+    case BT_RESULT_OUTCOME:
+        return failed
+                   ? sqlite3_bind_null(s, at)
+                   : sqlite3_bind_text(s, at, bt_outcome_name(result->outcome), -1, SQLITE_STATIC);
+    case BT_RESULT_MODE:
+        return failed ? sqlite3_bind_null(s, at)
+                      : sqlite3_bind_text(s, at, bt_mode_name(result->mode), -1, SQLITE_STATIC);
+    case BT_RESULT_FLAG:
+        return sqlite3_bind_int(s, at, *(const bool*)member);
+    case BT_RESULT_INT:
+        return sqlite3_bind_int(s, at, *(const int*)member);
+    case BT_RESULT_COUNT:
+    case BT_RESULT_HASH:
+        return sqlite3_bind_int64(s, at, *(const int64_t*)member);
+    case BT_RESULT_REAL:
+        return sqlite3_bind_double(s, at, *(const double*)member);
+    case BT_RESULT_TEXT:
+        return bind_text(s, at, member);
+    case BT_RESULT_REMARKS:
+        return bind_remarks(s, at, (const bt_remarks*)member);
+    }
+    return SQLITE_MISUSE;
+}
+
+static int bind_row(const bt_ledger* ledger, int64_t run, const double* x, double log_density,
+                    const bt_landing_result* result) {
+    sqlite3_stmt* s = ledger->insert;
+    int at = 1;
+    int code = sqlite3_bind_int64(s, at++, run);
+    code |= sqlite3_bind_double(s, at++, log_density);
+    code |= sqlite3_bind_text(s, at++, result->outcome == BT_FAILED ? "failed" : "done", -1,
+                              SQLITE_STATIC);
+    for (int i = 0; i < ledger->axes.count; ++i)
+        code |= sqlite3_bind_double(s, at++, x[i]);
+    for (int i = 0; i < bt_result_column_count; ++i)
+        if (bt_ledger_keeps(&bt_result_columns[i]))
+            code |= bind_column(s, at++, &bt_result_columns[i], result);
+    return code;
+}
+
+bt_status bt_ledger_add(bt_ledger* ledger, int64_t run, const double* x, double log_density,
+                        const bt_landing_result* result, bt_diag* diag) {
+    if (!ledger->insert)
+        BT_TRY(prepare_insert(ledger, diag));
+    if (!ledger->in_transaction)
+        BT_TRY(bt_ledger_execute(ledger, "BEGIN IMMEDIATE", "cannot write", diag));
+    ledger->in_transaction = true;
+
+    sqlite3_reset(ledger->insert);
+    if (bind_row(ledger, run, x, log_density, result) == SQLITE_OK &&
+        sqlite3_step(ledger->insert) == SQLITE_DONE) {
+        sqlite3_reset(ledger->insert);
+        return BT_OK;
+    }
+    const bt_status status = bt_ledger_sql_error(ledger, "cannot write", diag);
+    sqlite3_reset(ledger->insert);
+    bt_ledger_roll_back(ledger);
+    return status;
+}
+
+bt_status bt_ledger_commit(bt_ledger* ledger, bt_diag* diag) {
+    if (!ledger->in_transaction)
+        return BT_OK;
+    const bt_status status = bt_ledger_execute(ledger, "COMMIT", "cannot write", diag);
+    if (status != BT_OK)
+        bt_ledger_roll_back(ledger);
+    ledger->in_transaction = false;
+    return status;
+}
+
+// --- reading --------------------------------------------------------------------------------
+
+bt_status bt_ledger_count(bt_ledger* ledger, bt_ledger_counts* counts, bt_diag* diag) {
+    BT_TRY(bt_ledger_ask(ledger, "SELECT count(*) FROM runs", &counts->runs, diag));
+    BT_TRY(bt_ledger_ask(ledger, "SELECT count(*) FROM runs WHERE outcome = 'engaged'",
+                         &counts->engaged, diag));
+    BT_TRY(bt_ledger_ask(ledger, "SELECT count(*) FROM runs WHERE outcome = 'missed'",
+                         &counts->missed, diag));
+    return bt_ledger_ask(ledger, "SELECT count(*) FROM runs WHERE status = 'failed'",
+                         &counts->failed, diag);
+}
+
+static double column_real(sqlite3_stmt* s, int at) {
+    return sqlite3_column_type(s, at) == SQLITE_NULL ? NAN : sqlite3_column_double(s, at);
+}
+
+static bt_outcome read_outcome(const char* text) {
+    if (text && strcmp(text, bt_outcome_name(BT_ENGAGED)) == 0)
+        return BT_ENGAGED;
+    if (text && strcmp(text, bt_outcome_name(BT_MISSED)) == 0)
+        return BT_MISSED;
+    return BT_FAILED;
+}
+
+static bt_mode read_mode(const char* text) {
+    for (int mode = 0; text && mode < BT_MODE_COUNT; ++mode)
+        if (strcmp(text, bt_mode_name((bt_mode)mode)) == 0)
+            return (bt_mode)mode;
+    return BT_MODE_NONE;
+}
+
+static void read_column(sqlite3_stmt* s, int at, const bt_result_column* c,
+                        bt_landing_result* result) {
+    char* member = (char*)result + c->offset;
+    const char* text = NULL;
+    switch (c->kind) {
+    case BT_RESULT_OUTCOME:
+        result->outcome = read_outcome((const char*)sqlite3_column_text(s, at));
+        break;
+    case BT_RESULT_MODE:
+        result->mode = read_mode((const char*)sqlite3_column_text(s, at));
+        break;
+    case BT_RESULT_FLAG:
+        *(bool*)member = sqlite3_column_int(s, at) != 0;
+        break;
+    case BT_RESULT_INT:
+        *(int*)member = sqlite3_column_int(s, at);
+        break;
+    case BT_RESULT_COUNT:
+    case BT_RESULT_HASH:
+        *(int64_t*)member = sqlite3_column_int64(s, at);
+        break;
+    case BT_RESULT_REAL:
+        *(double*)member = column_real(s, at);
+        break;
+    case BT_RESULT_TEXT:
+        if ((text = (const char*)sqlite3_column_text(s, at)))
+            snprintf(member, BT_FAILED_TEXT_SIZE, "%s", text);
+        break;
+    case BT_RESULT_REMARKS:
+        if ((text = (const char*)sqlite3_column_text(s, at)))
+            bt_remarks_parse(text, (bt_remarks*)member);
+        break;
+    }
+}
+
+/// In the order of bt_ledger_bind_columns.
+static void read_row(const bt_ledger* ledger, sqlite3_stmt* s, bt_ledger_row* row) {
+    memset(row, 0, sizeof *row);
+    int at = 0;
+    row->run = sqlite3_column_int64(s, at++);
+    for (int i = 0; i < ledger->axes.count; ++i)
+        row->x[i] = column_real(s, at++);
+    row->log_density = column_real(s, at++);
+    for (int i = 0; i < bt_result_column_count; ++i)
+        if (bt_ledger_keeps(&bt_result_columns[i]))
+            read_column(s, at++, &bt_result_columns[i], &row->result);
+}
+
+/// Walks the rows of a SELECT with `tail` behind it, whose one parameter, if any, is a run.
+static bt_status walk(bt_ledger* ledger, const char* tail, int64_t run, bt_ledger_visit* visit,
+                      void* user, bt_diag* diag) {
+    sqlite3_stmt* statement = NULL;
+    char* sql = sqlite3_mprintf("%s %s", ledger->select, tail);
+    if (!sql)
+        return BT_ERR_MEMORY;
+    int code = sqlite3_prepare_v2(ledger->db, sql, -1, &statement, NULL);
+    sqlite3_free(sql);
+    if (code == SQLITE_OK && sqlite3_bind_parameter_count(statement) > 0)
+        code = sqlite3_bind_int64(statement, 1, run);
+    bool more = code == SQLITE_OK;
+    bt_ledger_row row;
+    while (more && (code = sqlite3_step(statement)) == SQLITE_ROW) {
+        read_row(ledger, statement, &row);
+        more = visit(user, &row);
+    }
+    const bt_status status = code == SQLITE_ROW || code == SQLITE_DONE
+                                 ? BT_OK
+                                 : bt_ledger_sql_error(ledger, "cannot read", diag);
+    sqlite3_finalize(statement);
+    return status;
+}
+
+bt_status bt_ledger_walk(bt_ledger* ledger, bt_ledger_visit* visit, void* user, bt_diag* diag) {
+    return walk(ledger, "ORDER BY run", 0, visit, user, diag);
+}
+
+typedef struct found {
+    bt_ledger_row* row;
+    bool any;
+} found;
+
+static bool take_one(void* user, const bt_ledger_row* row) {
+    found* f = user;
+    *f->row = *row;
+    f->any = true;
+    return false;
+}
+
+bt_status bt_ledger_get(bt_ledger* ledger, int64_t run, bt_ledger_row* row, bt_diag* diag) {
+    found f = {.row = row};
+    BT_TRY(walk(ledger, "WHERE run = ?", run, take_one, &f, diag));
+    return f.any ? BT_OK : BT_ERR_ARG;
+}

@@ -1,0 +1,158 @@
+import * as Plot from "@observablehq/plot";
+import { element } from "../dom.js";
+import { figure, plotStyle, series } from "../figure.js";
+import { Motion } from "./motion.js";
+import { Stage } from "./scene.js";
+
+const SPEEDS = [1, 0.5, 0.1, 0.05, 0.02, 0.01, 0.005, 0.001];
+const PANELS = [
+  { label: "height, mm", scale: 1000, curves: { hook_height_m: "hook", cable_height_m: "cable at the hook" } },
+  { label: "cable tension, kN", scale: 1e-3, curves: { cable_tension_N: "largest tension" } },
+  { label: "tyres, kN", scale: 1e-3, curves: { tyre_nose_N: "nose", tyre_left_N: "left", tyre_right_N: "right" } },
+  { label: "struts, kN", scale: 1e-3, curves: { strut_nose_N: "nose", strut_left_N: "left", strut_right_N: "right" } },
+];
+
+const say = (record) => `${record.name}: ${record.outcome}, ${record.mode.replaceAll("_", " ")}` +
+  (Number.isFinite(record.margin_m) ? `, margin ${(1000 * record.margin_m).toFixed(1)} mm` : "");
+
+/** Curves under the picture, with a cursor that moves with the time. */
+function panel(motion, { label, scale, curves }, cursors) {
+  const present = Object.entries(curves).filter(([name]) => motion.curves[name]);
+  if (!present.length) return null;
+  const points = present.flatMap(([name, what]) => Array.from(motion.time, (t, i) => ({ t, y: scale * motion.curves[name].values[i], what })));
+  return figure({
+    name: `landing-${label.split(",")[0].replaceAll(" ", "-")}`, caption: label,
+    columns: ["time [s]", ...present.map(([name]) => name)],
+    rows: Array.from(motion.time, (t, i) => [t, ...present.map(([name]) => motion.curves[name].values[i])]),
+    draw: (width) => {
+      const svg = Plot.plot({
+        width, height: 120, style: plotStyle, marginLeft: 55, x: { label: "s", grid: true }, y: { label: null, grid: true, ticks: 4 },
+        color: { domain: present.map(([, what]) => what), range: series },
+        marks: [Plot.line(points, { x: "t", y: "y", stroke: "what", z: "what" }),
+          Plot.text(present.map(([, what]) => points.filter((p) => p.what === what).reduce((a, b) => (b.y > a.y ? b : a))), { x: "t", y: "y", text: "what", fill: "what", dy: -6 })],
+      });
+      const x = svg.scale("x");
+      const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
+      for (const [key, value] of Object.entries({ y1: 10, y2: 95, stroke: "currentColor", "stroke-width": 1.5, class: "cursor" })) line.setAttribute(key, value);
+      svg.append(line);
+      cursors.set(label, (time) => { const at = x.apply(time); line.setAttribute("x1", at); line.setAttribute("x2", at); });
+      return svg;
+    },
+  });
+}
+
+/** The recorded landings with their controls: one, or two side by side, driven by one clock. */
+export class Player {
+  constructor(records) {
+    this.records = records;
+    this.motions = new Map();
+    this.stages = [];
+    this.chosen = [0, -1];
+    this.lock = "time";
+    this.speed = 0.1;
+    this.playing = false;
+    this.cursors = new Map();
+    this.node = this.build();
+  }
+
+  motion(index) {
+    if (!this.motions.has(index)) this.motions.set(index, new Motion(this.records[index]));
+    return this.motions.get(index);
+  }
+
+  build() {
+    const option = (value, text, selected) => element("option", { value, selected }, text);
+    const names = (none) => [none ? option(-1, "nothing beside", true) : null, ...this.records.map((r, i) => option(i, say(r), !none && i === 0))];
+    this.stageBox = element("div", { class: "stages" });
+    this.curveBox = element("div", { class: "curves" });
+    this.status = element("output", { class: "clock" });
+    this.slider = element("input", { type: "range", min: 0, max: 10000, value: 0, "aria-label": "time", oninput: () => this.seek(this.slider.value / 10000) });
+    this.marks = element("div", { class: "marks" });
+    this.button = element("button", { type: "button", onclick: () => this.toggle() }, "Play");
+    const views = { side: "side", hook: "hook close-up", above: "above", orbit: "free" };
+    return element("div", { class: "player", tabindex: 0, onkeydown: (event) => this.key(event) },
+      element("p", { class: "controls" },
+        element("label", {}, "landing ", element("select", { onchange: (e) => this.choose(0, Number(e.target.value)) }, ...names(false))), " ",
+        this.records.length > 1 ? element("label", {}, "beside ", element("select", { onchange: (e) => this.choose(1, Number(e.target.value)) }, ...names(true))) : null, " ",
+        element("label", {}, "locked in ", element("select", { onchange: (e) => { this.lock = e.target.value; this.draw(); } }, option("time", "time", true), option("place", "place")))),
+      this.stageBox,
+      element("p", { class: "controls" }, this.button, " ",
+        element("label", {}, "speed ", element("select", { onchange: (e) => { this.speed = Number(e.target.value); } },
+          ...SPEEDS.map((s) => option(s, s === 1 ? "real time" : `1/${Math.round(1 / s)}`, s === 0.1)))), " ",
+        ...Object.entries(views).map(([view, text]) => element("button", { type: "button", "data-view": view, onclick: () => this.look(view) }, text)), " ", this.status),
+      this.slider, this.marks, this.curveBox,
+      element("p", { class: "note" }, "Space plays and stops; arrow keys step; 1 to 4 choose the camera; drag to turn, wheel to come closer."));
+  }
+
+  /** Called once the node is in the page. */
+  start() { this.choose(0, 0); }
+
+  choose(side, index) {
+    this.chosen[side] = index;
+    this.stages.forEach((stage) => stage.dispose());
+    this.stageBox.replaceChildren();
+    this.stages = this.chosen.filter((i) => i >= 0).map((i) => {
+      const canvas = element("canvas", { "aria-label": say(this.records[i]), role: "img" });
+      this.stageBox.append(element("div", { class: "stage" }, canvas, element("p", { class: "outcome" }, say(this.records[i]))));
+      return new Stage(canvas, this.motion(i));
+    });
+    const first = this.stages[0].motion;
+    this.time = first.begin;
+    this.cursors.clear();
+    this.curveBox.replaceChildren(...PANELS.map((p) => panel(first, p, this.cursors)).filter(Boolean));
+    this.marks.replaceChildren(...first.record.events.map((event) =>
+      element("button", { type: "button", title: event.what, style: `left:${(100 * (event.time_s - first.begin)) / (first.end - first.begin)}%`,
+        onclick: () => { this.time = event.time_s; this.draw(); } }, event.what)));
+    this.draw();
+  }
+
+  look(view) { this.stages.forEach((stage) => stage.look(view)); this.draw(); }
+
+  seek(share) {
+    const m = this.stages[0].motion;
+    this.time = m.begin + share * (m.end - m.begin);
+    this.draw();
+  }
+
+  toggle() {
+    this.playing = !this.playing;
+    this.button.textContent = this.playing ? "Stop" : "Play";
+    if (!this.playing) return;
+    if (this.time >= this.stages[0].motion.end) this.time = this.stages[0].motion.begin;
+    let before = performance.now();
+    const tick = (now) => {
+      if (!this.playing) return;
+      this.time += (this.speed * (now - before)) / 1000;
+      before = now;
+      if (this.time >= this.stages[0].motion.end) { this.time = this.stages[0].motion.end; this.toggle(); }
+      this.draw();
+      if (this.playing) requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+  }
+
+  key(event) {
+    const m = this.stages[0].motion;
+    const step = (m.end - m.begin) / 200;
+    const views = ["side", "hook", "above", "orbit"];
+    if (["SELECT", "INPUT"].includes(event.target.tagName)) return;
+    if (event.key === " ") this.toggle();
+    else if (event.key === "ArrowRight") { this.time = Math.min(m.end, this.time + step); this.draw(); }
+    else if (event.key === "ArrowLeft") { this.time = Math.max(m.begin, this.time - step); this.draw(); }
+    else if (views["1234".indexOf(event.key)]) this.look(views["1234".indexOf(event.key)]);
+    else return;
+    event.preventDefault();
+  }
+
+  draw() {
+    const [first, second] = this.stages;
+    first.show(this.time);
+    if (second) second.show(this.lock === "time" ? this.time : second.motion.when(first.motion.value("lip_x_m", this.time)));
+    const m = first.motion;
+    this.slider.value = (10000 * (this.time - m.begin)) / (m.end - m.begin);
+    this.status.textContent = `t = ${this.time.toFixed(4)} s`;
+    this.cursors.forEach((move) => move(this.time));
+  }
+
+  resize() { this.stages.forEach((stage) => stage.resize()); if (this.stages.length) this.draw(); }
+}
