@@ -151,7 +151,7 @@ static bool is_number(const bt_field* field) {
 /// A numeric key by its path; NULL when there is none, which is said.
 static const bt_field* number(const bt_case* c, const char* path, size_t* offset) {
     bt_diag diag = bt_case_diag(c);
-    const bt_field* field = bt_group_find(&bt_model_group, path, offset);
+    const bt_field* field = bt_params_find(&bt_model_group, &c->study.model, path, offset);
     if (field && is_number(field))
         return field;
     bt_diag_add(&diag, BT_ERROR, BT_NOWHERE, "%s: %s", path,

@@ -12,6 +12,16 @@ static void join(char* path, const char* parent, const char* name) {
     snprintf(path, PATH_SIZE, "%s%s%s", parent, *parent ? "." : "", name);
 }
 
+const bt_group* bt_variant_group(const bt_variant* variant, const bt_variant_head* member) {
+    return variant->groups[member->type];
+}
+
+void bt_variant_set(const bt_variant* variant, int type, bt_variant_head* member) {
+    member->type = type;
+    memset(member->params, 0, variant->size);
+    bt_group_set_defaults(variant->groups[type], member->params);
+}
+
 static void set_default(const bt_field* field, void* member) {
     switch (field->kind) {
     case BT_FIELD_REAL:
@@ -35,6 +45,9 @@ static void set_default(const bt_field* field, void* member) {
         break;
     case BT_FIELD_GROUP:
         bt_group_set_defaults(field->group, member);
+        break;
+    case BT_FIELD_VARIANT:
+        bt_variant_set(field->variant, 0, member);
         break;
     }
 }
@@ -82,6 +95,14 @@ static bool check_choice(const bt_field* field, int value, const char* path, bt_
     return false;
 }
 
+static bool check_variant(const bt_variant* variant, const bt_variant_head* member,
+                          const char* path, bt_diag* diag) {
+    char type_path[PATH_SIZE];
+    join(type_path, path, variant->type.name);
+    return check_choice(&variant->type, member->type, type_path, diag) &&
+           bt_group_check(bt_variant_group(variant, member), member->params, path, diag) == BT_OK;
+}
+
 static bool check_member(const bt_field* field, const void* member, const char* path,
                          bt_diag* diag) {
     switch (field->kind) {
@@ -95,6 +116,8 @@ static bool check_member(const bt_field* field, const void* member, const char* 
         return check_list(field, member, path, diag);
     case BT_FIELD_GROUP:
         return bt_group_check(field->group, member, path, diag) == BT_OK;
+    case BT_FIELD_VARIANT:
+        return check_variant(field->variant, member, path, diag);
     case BT_FIELD_FLAG:
     case BT_FIELD_TABLE:
         break;
@@ -133,7 +156,20 @@ static const bt_field* find_named(const bt_group* group, const char* name, size_
     return NULL;
 }
 
-const bt_field* bt_group_find(const bt_group* group, const char* path, size_t* offset) {
+/// The table below a field that has one, and where its struct begins; NULL for a leaf. `params` is
+/// the outermost struct or NULL, *offset the place of the member in it.
+static const bt_group* below(const bt_field* field, const void* params, size_t* offset) {
+    if (field->kind == BT_FIELD_GROUP)
+        return field->group;
+    if (field->kind != BT_FIELD_VARIANT)
+        return NULL;
+    const bt_variant_head* member = params ? (const void*)((const char*)params + *offset) : NULL;
+    *offset += offsetof(bt_variant_head, params);
+    return member ? bt_variant_group(field->variant, member) : field->variant->groups[0];
+}
+
+const bt_field* bt_params_find(const bt_group* group, const void* params, const char* path,
+                               size_t* offset) {
     size_t at = 0;
     while (group) {
         const size_t length = strcspn(path, ".");
@@ -141,35 +177,58 @@ const bt_field* bt_group_find(const bt_group* group, const char* path, size_t* o
         if (!field)
             return NULL;
         at += field->offset;
-        if (path[length] == '\0') {
+        if (path[length] != '\0' && field->kind == BT_FIELD_VARIANT &&
+            strcmp(path + length + 1, field->variant->type.name) == 0) {
+            field = &field->variant->type;
+            path += length + 1 + strlen(field->name);
+        } else {
+            path += length;
+        }
+        if (*path == '\0') {
             if (offset)
                 *offset = at;
             return field;
         }
-        group = field->group;
-        path += length + 1;
+        group = below(field, params, &at);
+        ++path;
     }
     return NULL;
 }
 
-static bool walk(const bt_group* group, const char* path, size_t offset, bt_field_visit* visit,
-                 void* user) {
+const bt_field* bt_group_find(const bt_group* group, const char* path, size_t* offset) {
+    return bt_params_find(group, NULL, path, offset);
+}
+
+typedef struct walker {
+    const void* params;
+    bt_field_visit* visit;
+    void* user;
+} walker;
+
+static bool walk(const walker* w, const bt_group* group, const char* path, size_t offset) {
     for (int i = 0; i < group->field_count; ++i) {
         const bt_field* field = &group->fields[i];
-        char member_path[PATH_SIZE];
+        char member_path[PATH_SIZE], type_path[PATH_SIZE];
         join(member_path, path, field->name);
-        const size_t at = offset + field->offset;
-        const bool go_on = field->kind == BT_FIELD_GROUP
-                               ? walk(field->group, member_path, at, visit, user)
-                               : visit(user, field, member_path, at);
-        if (!go_on)
+        size_t at = offset + field->offset;
+        if (field->kind == BT_FIELD_VARIANT) {
+            join(type_path, member_path, field->variant->type.name);
+            if (!w->visit(w->user, &field->variant->type, type_path, at))
+                return false;
+        }
+        const bt_group* inner = below(field, w->params, &at);
+        if (!(inner ? walk(w, inner, member_path, at) : w->visit(w->user, field, member_path, at)))
             return false;
     }
     return true;
 }
 
+void bt_params_walk(const bt_group* group, const void* params, bt_field_visit* visit, void* user) {
+    walk(&(walker){params, visit, user}, group, "", 0);
+}
+
 void bt_group_walk(const bt_group* group, bt_field_visit* visit, void* user) {
-    walk(group, "", 0, visit, user);
+    bt_params_walk(group, NULL, visit, user);
 }
 
 double bt_field_get(const bt_field* field, const void* params, size_t offset) {

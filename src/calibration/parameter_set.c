@@ -9,11 +9,13 @@
 static const char rigs_prefix[] = "rigs.";
 enum { PREFIX_LENGTH = sizeof rigs_prefix - 1 };
 
-const bt_field* bt_parameter_set_find(const char* path, size_t* offset) {
+const bt_field* bt_parameter_set_find(const bt_parameter_set* set, const char* path,
+                                      size_t* offset) {
     const bool of_rigs = strncmp(path, rigs_prefix, PREFIX_LENGTH) == 0;
     size_t inner = 0;
-    const bt_field* field = of_rigs ? bt_group_find(&bt_rigs_group, path + PREFIX_LENGTH, &inner)
-                                    : bt_group_find(&bt_model_group, path, &inner);
+    const bt_field* field =
+        of_rigs ? bt_params_find(&bt_rigs_group, &set->rigs, path + PREFIX_LENGTH, &inner)
+                : bt_params_find(&bt_model_group, &set->model, path, &inner);
     *offset =
         inner + (of_rigs ? offsetof(bt_parameter_set, rigs) : offsetof(bt_parameter_set, model));
     return field;
@@ -41,11 +43,12 @@ static bool compare(void* user, const bt_field* field, const char* path, size_t 
     return true;
 }
 
-void bt_parameter_set_nearest(const char* typed, char* best, size_t size) {
+void bt_parameter_set_nearest(const bt_parameter_set* set, const char* typed, char* best,
+                              size_t size) {
     nearest n = {.typed = typed, .prefix = "", .best = best, .size = size, .distance = INT_MAX};
-    bt_group_walk(&bt_model_group, compare, &n);
+    bt_params_walk(&bt_model_group, &set->model, compare, &n);
     n.prefix = rigs_prefix;
-    bt_group_walk(&bt_rigs_group, compare, &n);
+    bt_params_walk(&bt_rigs_group, &set->rigs, compare, &n);
 }
 
 bt_status bt_parameter_set_check(const bt_parameter_set* specimen, bt_parameter_set_part part,

@@ -10,12 +10,14 @@ typedef struct bt_parameter_set {
     bt_rigs_params rigs;
 } bt_parameter_set;
 
-/// Finds a field by its path. Returns NULL when there is none. *offset is that of the member in
-/// bt_parameter_set.
-const bt_field* bt_parameter_set_find(const char* path, size_t* offset);
+/// Finds a field of a set by its path. Returns NULL when there is none. *offset is that of the
+/// member in bt_parameter_set.
+const bt_field* bt_parameter_set_find(const bt_parameter_set* set, const char* path,
+                                      size_t* offset);
 
 /// The path of a number nearest to what was typed, into `best`.
-void bt_parameter_set_nearest(const char* typed, char* best, size_t size);
+void bt_parameter_set_nearest(const bt_parameter_set* set, const char* typed, char* best,
+                              size_t size);
 
 /// What an experiment on a specimen needs of it.
 typedef enum bt_parameter_set_part {

@@ -25,7 +25,7 @@ typedef struct reading {
 /// A field of numbers named by a key; NULL after reporting an error.
 static const bt_field* find_field(reading* r, const bt_node* key, const char* path,
                                   size_t* offset) {
-    const bt_field* field = bt_parameter_set_find(key->text, offset);
+    const bt_field* field = bt_parameter_set_find(&r->c->base, key->text, offset);
     if (field && field->kind <= BT_FIELD_COUNT && strlen(key->text) < BT_PATH_MAX)
         return field;
     if (field) {
@@ -34,7 +34,7 @@ static const bt_field* find_field(reading* r, const bt_node* key, const char* pa
         return NULL;
     }
     char nearest[160] = "";
-    bt_parameter_set_nearest(key->text, nearest, sizeof nearest);
+    bt_parameter_set_nearest(&r->c->base, key->text, nearest, sizeof nearest);
     bt_reader_error(&r->reader, key->where, "%s.%s: no such key; did you mean \"%s\"?", path,
                     key->text, nearest);
     return NULL;

@@ -79,7 +79,7 @@ char* bt_study_identity(const bt_study* study) {
     for (int i = 0; i < axes.count; ++i)
         write_axis(out, &study->inputs[axes.input[i]], design == BT_DESIGN_MONTE_CARLO);
     writer w = {.out = out, .params = &study->model};
-    bt_group_walk(&bt_model_group, write_field, &w);
+    bt_params_walk(&bt_model_group, &study->model, write_field, &w);
     if (fclose(out) != 0) {
         free(text);
         return NULL;

@@ -53,7 +53,7 @@ static double mean_move(const bt_noise_landing* from, const bt_noise_landing* to
 /// Sets one number of the study's model; what it was.
 static double set_key(bt_study* study, const char* path, double value) {
     size_t offset;
-    const bt_field* field = bt_group_find(&bt_model_group, path, &offset);
+    const bt_field* field = bt_params_find(&bt_model_group, &study->model, path, &offset);
     const double before = bt_field_get(field, &study->model, offset);
     bt_field_set(field, &study->model, offset, value);
     return before;
@@ -142,7 +142,7 @@ static bool add_key(table* t, const char* text, size_t length) {
     if (range)
         *range++ = 0;
     snprintf(e->path, sizeof e->path, "%.*s", (int)sizeof e->path - 1, typed);
-    const bt_field* field = bt_group_find(&bt_model_group, e->path, &offset);
+    const bt_field* field = bt_params_find(&bt_model_group, &t->study.model, e->path, &offset);
     if (!field || (field->kind != BT_FIELD_REAL && field->kind != BT_FIELD_PLAIN)) {
         (void)bt_usage_error(t->command,
                              "--keys: \"%s\" is no number of the model; see bolter keys", e->path);
@@ -167,7 +167,8 @@ static bool is_input(const table* t, const char* path) {
 static bool add_keys(table* t, const char* list) {
     if (!list) {
         for (const bt_likely_range* range = bt_likely_ranges; range->path; ++range)
-            if (!is_input(t, range->path) && !add_key(t, range->path, strlen(range->path)))
+            if (bt_params_find(&bt_model_group, &t->study.model, range->path, NULL) &&
+                !is_input(t, range->path) && !add_key(t, range->path, strlen(range->path)))
                 return false;
         return true;
     }

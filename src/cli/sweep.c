@@ -165,8 +165,7 @@ static bt_status write_figure(const plan* p, bt_sweep* sweep, const char* folder
 /// One landing well before the cable, unless the distance itself is what varies.
 static bt_model_params sweep_model(const bt_study* study, const char* key) {
     bt_model_params model = study->model;
-    if (strcmp(key, "landing.distance") != 0 &&
-        model.landing.distance_m < BT_CLEAR_DISTANCE_M)
+    if (strcmp(key, "landing.distance") != 0 && model.landing.distance_m < BT_CLEAR_DISTANCE_M)
         model.landing.distance_m = BT_CLEAR_DISTANCE_M;
     return model;
 }
@@ -180,7 +179,7 @@ static bt_status run_plan(const bt_command* command, const bt_study* study, cons
     size_t offset;
     int count = 0;
     bt_sweep sweep;
-    BT_TRY(bt_sweep_find(p->key, &field, &offset, &diag));
+    BT_TRY(bt_sweep_find(&model, p->key, &field, &offset, &diag));
     BT_TRY(bt_sweep_values(field, p->key, p->values, values, &count, &diag));
     BT_TRY(
         bt_sweep_run(&model, p->key, values, count, (int)study->campaign.threads, &sweep, &diag));

@@ -1,4 +1,7 @@
-/// Longitudinal damper of the hook: gas spring and a constant orifice  [Peng2023 Eq. 9].
+/// Longitudinal damper of the hook, whatever its law  [Peng2023 Eq. 9].
+///
+/// A law is one source file with a table of parameters and a constant bt_hook_damper_type, and one
+/// line in hook_dampers.def; nothing else knows which laws there are.
 ///
 /// Sign: the stroke s is positive in compression (hook rising), 0 at the down stop; a force is
 /// positive when it pushes the attachment points apart (hook down).
@@ -6,55 +9,56 @@
 #define BT_ELEMENTS_HOOK_DAMPER_H
 
 #include "base/fields.h"
+#include "elements/gas.h"
+#include "elements/stops.h"
 #include "mechanics/system.h"
 
-// clang-format off
-#define BT_HOOK_DAMPER_FIELDS(F)                                                                   \
-    F(REAL, air_area, m2, REQUIRED, 1.96e-3, 1e-7, 10, "Eq. 9", "A_Z: area the gas acts on") \
-    F(REAL, precharge, Pa, REQUIRED, 11.0e6, 1e3, 1e9, "Eq. 9", "P_0: absolute gas pressure, damper extended") \
-    F(REAL, air_volume, m3, REQUIRED, 3.0e-3, 1e-8, 10, "Eq. 9", "V_0: gas volume, damper extended") \
-    F(PLAIN, gas_exponent, _, OPTIONAL, 1.2, 1, 1.7, "Eq. 9", "n: polytropic exponent of the gas") \
-    F(REAL, ambient, Pa, OPTIONAL, 101325, 0, 2e5, "Eq. 9", "P_atm: ambient pressure") \
-    F(REAL, oil_area, m2, REQUIRED, 1.6e-3, 1e-7, 10, "Eq. 9", "A_Zh: area that pushes oil through the orifice") \
-    F(REAL, orifice_area, m2, REQUIRED, 2.9798e-5, 1e-9, 1, "Eq. 9", "A_Zd: orifice; the fallback gives 4695 N s^2/m^2") \
-    F(REAL, rebound_area, m2, OPTIONAL, 0, 0, 1, "Eq. 9", "orifice while the damper extends; 0: as in compression") \
-    F(PLAIN, discharge, _, OPTIONAL, 0.65, 0.05, 2, "Eq. 9", "C_d: discharge coefficient") \
-    F(REAL, oil_density, kgpm3, OPTIONAL, 860, 100, 3000, "Eq. 9", "rho: density of the oil") \
-    F(REAL, stroke_max, m, OPTIONAL, 0.6, 1e-3, 10, "Eq. 5", "full stroke [assumed]") \
-    F(REAL, stop_stiffness, Npm, OPTIONAL, 2e7, 0, 1e12, "Eq. 5", "stiffness beyond either end; at s < 0 it is the hook's down stop [calibrated]") \
-    F(REAL, stop_damping, Npmps, OPTIONAL, 0, 0, 1e9, "", "damping beyond either end; a stop never pulls")
-// clang-format on
-BT_DECLARE_GROUP(hook_damper, BT_HOOK_DAMPER_FIELDS)
+/// Room for the parameters and the constants of any law, bytes.
+enum { BT_HOOK_DAMPER_PARAMS_SIZE = 256, BT_HOOK_DAMPER_DATA_SIZE = 256 };
+BT_DECLARE_VARIANT(hook_damper, BT_HOOK_DAMPER_PARAMS_SIZE)
+
+/// One law.
+typedef struct bt_hook_damper_type {
+    size_t data_size; ///< of its constants, at most BT_HOOK_DAMPER_DATA_SIZE
+    /// From checked parameters; cannot fail.
+    void (*prepare)(const void* params, void* data);
+    /// F(s, s'), N. At rest it is the derivative of the energy; what the rate adds never gives
+    /// power: (F(s, s') - F(s, 0)) s' >= 0.
+    double (*force)(const void* data, double stroke_m, double rate_mps);
+    /// Stored energy, J, 0 at s = 0.
+    double (*energy)(const void* data, double stroke_m);
+    /// Longest stable step of a mass on it, s.
+    double (*step_limit)(const void* data, double mass_kg);
+    /// Whether the law holds at a stroke; see bt_element_type. NULL: everywhere.
+    bt_law (*law)(const void* data, double stroke_m, const char** what);
+} bt_hook_damper_type;
+
+/// In the source of a law: it fits into the room there is.
+#define BT_HOOK_DAMPER_FITS(params_type, data_type)                                                \
+    _Static_assert(sizeof(params_type) <= BT_HOOK_DAMPER_PARAMS_SIZE, "too many parameters");      \
+    _Static_assert(sizeof(data_type) <= BT_HOOK_DAMPER_DATA_SIZE, "too many constants");
+
+/// The law by its number, as in bt_hook_damper_variant.type; NULL beyond the last.
+const bt_hook_damper_type* bt_hook_damper_type_of(int type);
 
 /// A damper ready to be evaluated; plain data.
 typedef struct bt_hook_damper {
-    double air_area, precharge, air_volume, exponent, ambient;
-    double compression, extension; ///< quadratic damping, N s^2/m^2
-    double stroke_max, stop_stiffness, stop_damping;
+    const bt_hook_damper_type* type;
+    _Alignas(double) unsigned char data[BT_HOOK_DAMPER_DATA_SIZE];
 } bt_hook_damper;
 
 /// Prepares checked parameters. No allocation, cannot fail.
-void bt_hook_damper_prepare(const bt_hook_damper_params* params, bt_hook_damper* damper);
+void bt_hook_damper_prepare(const bt_hook_damper_variant* params, bt_hook_damper* damper);
 
-/// A_Z [ P_0 ( V_0 / (V_0 - A_Z s) )^n - P_atm ], N, as Eq. 3.
-double bt_hook_damper_gas_force(const bt_hook_damper* damper, double stroke_m);
-
-/// F_h = 1/2 rho s' |s'| A_Zh^3 / (C_d A_Zd)^2, N, positive while the damper shortens
-/// [Peng2023 Eq. 9]. Tests: eq9_* in test_hook_damper.c. Differs from the paper: a separate orifice
-/// in extension may be given.
-double bt_hook_damper_oil_force(const bt_hook_damper* damper, double rate_mps);
-
-/// Stops as Eq. 5: k s below 0 (down stop), k (s - s_max) beyond the stroke; never pulls, N.
-double bt_hook_damper_limit_force(const bt_hook_damper* damper, double stroke_m, double rate_mps);
-
-/// Sum of the three, N.
 double bt_hook_damper_force(const bt_hook_damper* damper, double stroke_m, double rate_mps);
-
-/// Whether the law holds at a stroke: at its limit beyond the full stroke ("hook damper bottomed");
-/// left where the gas has no volume ("no gas volume in the hook damper"). Below 0 is its down stop.
+double bt_hook_damper_energy(const bt_hook_damper* damper, double stroke_m);
+double bt_hook_damper_step_limit(const bt_hook_damper* damper, double mass_kg);
+/// Whether the law holds at a stroke: at its limit beyond the full stroke ("hook damper bottomed").
 bt_law bt_hook_damper_law(const bt_hook_damper* damper, double stroke_m, const char** what);
 
-/// Energy of gas and stops, J, 0 at s = 0.
-double bt_hook_damper_energy(const bt_hook_damper* damper, double stroke_m);
+/// The same for a law with gas and stops; left where the gas has no volume ("no gas volume in the
+/// hook damper"). Below 0 is the hook's down stop, where the law holds.
+bt_law bt_hook_damper_gas_law(const bt_gas_spring* gas, const bt_stops* stops, double stroke_m,
+                              const char** what);
 
 #endif

@@ -2,6 +2,8 @@
 
 #include "elements/check.h"
 #include "elements/friction.h"
+#include "elements/gas.h"
+#include "elements/orifice.h"
 
 #include <math.h>
 
@@ -37,15 +39,7 @@ static void check_gas(const bt_oleo_params* p, const char* path, bt_diag* diag) 
     const double swept = p->air_area_m2 * p->stroke_max_m;
     const bool two = p->high_precharge_Pa > 0 || p->high_volume_m3 > 0;
     const double volume = p->air_volume_m3 + (two ? p->high_volume_m3 : 0);
-    if (p->precharge_Pa < p->ambient_Pa)
-        bt_key_error(diag, path, "precharge",
-                     "%g Pa is below the ambient pressure of %g Pa; the precharge is absolute",
-                     p->precharge_Pa, p->ambient_Pa);
-    if (volume <= swept)
-        bt_key_error(
-            diag, path, "air_volume",
-            "the gas volume of %g m^3 is not above the swept volume air_area x stroke_max = %g m^3",
-            volume, swept);
+    bt_gas_check(p->precharge_Pa, p->ambient_Pa, volume, swept, path, diag);
     if (!two)
         return;
     if (p->high_volume_m3 <= 0)
@@ -93,14 +87,6 @@ static void check_oleo(const void* params, const char* path, bt_diag* diag) {
 BT_DEFINE_GROUP(oleo, BT_OLEO_FIELDS, ROW, check_oleo, "oleo-pneumatic shock strut")
 // clang-format on
 
-/// Energy that gas takes up from pressure p0 to p: integral of -p dV with V = C p^(-1/n).
-static double gas_work(double constant, double n, double p0, double p) {
-    const double a = (n - 1) / n, ratio = log(p / p0);
-    if (a == 0)
-        return constant * ratio;
-    return constant / n * pow(p0, a) * expm1(a * ratio) / a;
-}
-
 static void prepare_gas(const bt_oleo_params* p, bt_oleo* o) {
     const double n = p->gas_exponent, p1 = p->precharge_Pa, p2 = p->high_precharge_Pa;
     const double c1 = p->air_volume_m3 * pow(p1, 1 / n);
@@ -119,17 +105,13 @@ static void prepare_gas(const bt_oleo_params* p, bt_oleo* o) {
         (p->air_volume_m3 + o->oil_compliance * (p2 - p1) - c1 * pow(p2, -1 / n)) / p->air_area_m2;
     const double c2 = p->high_volume_m3 * pow(p2, 1 / o->high_exponent);
     const bool alike = o->high_exponent == n;
-    o->stage[1] = (bt_gas_stage){alike ? c1 + c2 : c1, alike ? 0 : c2,
-                                 p->air_volume_m3 + p->high_volume_m3, p2, gas_work(c1, n, p1, p2)};
-}
-
-/// rho A^3 / (2 C^2): over the orifice's area squared gives N s^2/m^2.
-static double flow_constant(double density, double area, double discharge) {
-    return density * area * area * area / (2 * discharge * discharge);
+    o->stage[1] =
+        (bt_gas_stage){alike ? c1 + c2 : c1, alike ? 0 : c2, p->air_volume_m3 + p->high_volume_m3,
+                       p2, bt_gas_work(c1, n, p1, p2)};
 }
 
 static void prepare_oil(const bt_oleo_params* p, bt_oleo* o) {
-    o->main_constant = flow_constant(p->oil_density_kgpm3, p->oil_area_m2, p->discharge);
+    o->main_constant = bt_orifice_damping(p->oil_density_kgpm3, p->oil_area_m2, p->discharge);
     o->rebound_ratio = p->rebound_ratio;
     o->rebound_area = p->rebound_area_m2;
     if (p->oil_area_m2 <= 0) {
@@ -142,7 +124,8 @@ static void prepare_oil(const bt_oleo_params* p, bt_oleo* o) {
         const double zero = 0;
         bt_curve_make(&o->orifice, BT_CURVE_LINEAR, 1, &zero, &p->orifice_area_m2);
     }
-    const double side = flow_constant(p->oil_density_kgpm3, p->side_area_m2, p->side_discharge);
+    const double side =
+        bt_orifice_damping(p->oil_density_kgpm3, p->side_area_m2, p->side_discharge);
     const double in = p->side_orifice_compression_m2, out = p->side_orifice_extension_m2;
     o->side_compression = side > 0 && in > 0 ? side / (in * in) : 0;
     o->side_extension = side > 0 && out > 0 ? side / (out * out) : 0;
@@ -157,16 +140,14 @@ void bt_oleo_prepare(const bt_oleo_params* params, bt_oleo* oleo) {
     else
         prepare_gas(p, oleo);
     prepare_oil(p, oleo);
-    oleo->stroke_max = p->stroke_max_m;
-    oleo->stop_stiffness = p->stop_stiffness_Npm;
-    oleo->stop_damping = p->stop_damping_Npmps;
+    oleo->stops = (bt_stops){p->stroke_max_m, p->stop_stiffness_Npm, p->stop_damping_Npmps};
     oleo->seal_N = p->seal_friction_N;
     oleo->seal_coefficient = p->seal_coefficient;
     oleo->bearing = p->bearing_coefficient * p->side_load_ratio;
     oleo->axle_distance = p->axle_distance_m;
     oleo->bearing_distance = p->bearing_distance_m;
     oleo->friction_speed = p->friction_speed_mps;
-    oleo->rubs = oleo->seal_N > 0 || oleo->seal_coefficient > 0 || oleo->bearing > 0;
+    oleo->has_friction = oleo->seal_N > 0 || oleo->seal_coefficient > 0 || oleo->bearing > 0;
 }
 
 /// Pressure p at which the gas fills room + compliance (p - P_0), from a first guess. The residual
@@ -196,7 +177,7 @@ double bt_oleo_gas_pressure(const bt_oleo* oleo, double stroke_m) {
         return INFINITY;
     if (stage->other > 0)
         return soften(oleo, stage, room, stage->pressure);
-    const double p = pow(stage->constant / room, oleo->exponent);
+    const double p = bt_gas_pressure(&(bt_gas){stage->constant, 1, oleo->exponent}, room);
     return oleo->oil_compliance > 0 ? soften(oleo, stage, room, p) : p;
 }
 
@@ -232,9 +213,9 @@ double bt_oleo_gas_energy(const bt_oleo* oleo, double stroke_m) {
     const bt_gas_stage* stage = &oleo->stage[stroke_m > oleo->second_stroke];
     const double p = bt_oleo_gas_pressure(oleo, stroke_m), p0 = oleo->precharge;
     const double other =
-        stage->other > 0 ? gas_work(stage->other, oleo->high_exponent, stage->pressure, p) : 0;
-    return stage->energy + gas_work(stage->constant, oleo->exponent, stage->pressure, p) + other +
-           0.5 * oleo->oil_compliance * (p - p0) * (p + p0) -
+        stage->other > 0 ? bt_gas_work(stage->other, oleo->high_exponent, stage->pressure, p) : 0;
+    return stage->energy + bt_gas_work(stage->constant, oleo->exponent, stage->pressure, p) +
+           other + 0.5 * oleo->oil_compliance * (p - p0) * (p + p0) -
            oleo->ambient * oleo->air_area * stroke_m;
 }
 
@@ -253,17 +234,12 @@ double bt_oleo_oil_force(const bt_oleo* oleo, double stroke_m, double rate_mps) 
 }
 
 double bt_oleo_limit_force(const bt_oleo* oleo, double stroke_m, double rate_mps) {
-    const double k = oleo->stop_stiffness, c = oleo->stop_damping;
-    if (stroke_m < 0)
-        return fmin(k * stroke_m + c * rate_mps, 0);
-    if (stroke_m > oleo->stroke_max)
-        return fmax(k * (stroke_m - oleo->stroke_max) + c * rate_mps, 0);
-    return 0;
+    return bt_stops_force(&oleo->stops, stroke_m, rate_mps);
 }
 
 double bt_oleo_friction_force(const bt_oleo* oleo, double stroke_m, double rate_mps,
                               double gas_force_N, double oil_force_N) {
-    if (!oleo->rubs)
+    if (!oleo->has_friction)
         return 0;
     const double lever = fmax(oleo->axle_distance - stroke_m, 0);
     const double overlap = oleo->bearing_distance + fmax(stroke_m, 0);
@@ -281,7 +257,7 @@ double bt_oleo_force(const bt_oleo* oleo, double stroke_m, double rate_mps) {
 }
 
 bt_law bt_oleo_law(const bt_oleo* oleo, double stroke_m, const char** what) {
-    if (!(stroke_m > oleo->stroke_max))
+    if (!(stroke_m > oleo->stops.stroke_max))
         return BT_LAW_HOLDS;
     const bool gas = isfinite(bt_oleo_gas_force(oleo, stroke_m));
     *what = gas ? "strut bottomed" : "no gas volume in the strut";
@@ -289,12 +265,11 @@ bt_law bt_oleo_law(const bt_oleo* oleo, double stroke_m, const char** what) {
 }
 
 double bt_oleo_energy(const bt_oleo* oleo, double stroke_m) {
-    const double beyond = stroke_m < 0 ? stroke_m : fmax(stroke_m - oleo->stroke_max, 0);
-    return bt_oleo_gas_energy(oleo, stroke_m) + 0.5 * oleo->stop_stiffness * beyond * beyond;
+    return bt_oleo_gas_energy(oleo, stroke_m) + bt_stops_energy(&oleo->stops, stroke_m);
 }
 
 double bt_oleo_hanging_stroke(const bt_oleo* oleo, double load_N) {
-    const double k = oleo->stop_stiffness;
+    const double k = oleo->stops.stiffness;
     if (!(k > 0))
         return 0;
     // The gas is far softer than the stop: each step gains orders of magnitude.

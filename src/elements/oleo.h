@@ -6,6 +6,7 @@
 #define BT_ELEMENTS_OLEO_H
 
 #include "elements/curve.h"
+#include "elements/stops.h"
 #include "mechanics/system.h"
 
 extern const char* const bt_orifice_law_names[]; ///< in the order of bt_curve_law
@@ -51,8 +52,8 @@ enum { BT_SPRING_GAS, BT_SPRING_POINTS };
 // clang-format on
 BT_DECLARE_GROUP(oleo, BT_OLEO_FIELDS)
 
-/// One gas stage: C p^(-1/n) is the volume of the gas that takes part, plus C_2 p^(-1/n_2) where
-/// the second chamber has an exponent of its own.
+/// One gas stage: C p^(-1/n), C being the volume at 1 Pa, is the volume of the gas that takes part,
+/// plus C_2 p^(-1/n_2) where the second chamber has an exponent of its own.
 typedef struct bt_gas_stage {
     double constant; ///< C = sum of V P^(1/n)
     double other;    ///< C_2 = V_02 P_02^(1/n_2); 0 where both chambers have one exponent
@@ -71,8 +72,8 @@ typedef struct bt_oleo {
     double side_compression, side_extension; ///< side orifice, N s^2/m^2
     double rebound_ratio, rebound_area;
     bt_curve orifice; ///< A_d(s)
-    double stroke_max, stop_stiffness, stop_damping;
-    bool rubs; ///< there is friction
+    bt_stops stops;
+    bool has_friction;
     double seal_N, seal_coefficient, bearing, axle_distance, bearing_distance, friction_speed;
     bool by_points; ///< the spring is given by points
     bt_curve spring;

@@ -2,6 +2,10 @@
 
 #include "mechanics/vec.h"
 
+double bt_wheel_inertia_across(double about_axle_kgm2) {
+    return 0.5 * about_axle_kgm2 * 1.1;
+}
+
 void bt_wheel_plane_find(const double axle[3], double centre_z, bt_wheel_plane* plane) {
     const double level = sqrt(axle[0] * axle[0] + axle[1] * axle[1]);
     // heading = axle x z, left = z x heading

@@ -18,6 +18,12 @@ enum { BT_WHEEL_DEFLECTION, BT_WHEEL_NORMAL, BT_WHEEL_FORWARD, BT_WHEEL_LATERAL,
 /// Energy and law: the tyre's.
 extern const bt_element_type bt_wheel_type;
 
+/// Inertia of a wheel about a diameter, kg m2, from that about its axle.
+///
+/// Half of it for a flat disc; a width w adds m w^2 / 12, a tenth of that half for the proportions
+/// of a tyre (reference: 9 % on both legs).
+double bt_wheel_inertia_across(double about_axle_kgm2);
+
 /// The plane of a wheel over a level deck. axle x z is the heading u; w = u x axle points up in
 /// the wheel's plane. With the wheel's plane upright, w is z.
 typedef struct bt_wheel_plane {

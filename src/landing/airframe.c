@@ -1,10 +1,10 @@
 #include "landing/airframe.h"
 
-#include "elements/centring.h"
-#include "elements/hook_hold.h"
+#include "elements/hook_damper_element.h"
 #include "elements/strut.h"
 #include "elements/torque.h"
 #include "elements/wheel.h"
+#include "elements/yaw_damper.h"
 #include "mechanics/vec.h"
 
 #include <string.h>
@@ -14,31 +14,6 @@ const char* const bt_body_names[BT_BODY_COUNT] = {"fuselage",     "nose_piston",
                                                   "right_wheel",  "hook"};
 
 enum { BODIES_MAX = BT_BODY_COUNT + 1, SHANK_ROOT = BT_BODY_COUNT };
-
-/// Lift: a constant force on the fuselage at the aircraft's centre of gravity.
-typedef struct lift {
-    double force_N, point_m[3];
-} lift;
-
-static void lift_force(const bt_element* element, const bt_motion* motion, double* wrench,
-                       double* output) {
-    const lift* data = element->data;
-    const double force[3] = {0, 0, data->force_N};
-    double point[3];
-    (void)output;
-    bt_point_position(motion, element->body_a, data->point_m, point);
-    bt_wrench_add(motion, element->body_a, point, force, wrench);
-}
-
-static double lift_energy(const bt_element* element, const bt_motion* motion) {
-    const lift* data = element->data;
-    double point[3];
-    bt_point_position(motion, element->body_a, data->point_m, point);
-    return -data->force_N * point[2];
-}
-
-static const bt_element_type lift_type = {
-    .name = "lift", .data_size = sizeof(lift), .force = lift_force, .energy = lift_energy};
 
 static const bt_gear_params* gear_of(const bt_aircraft_params* aircraft, int leg) {
     return leg == BT_LEG_NOSE ? &aircraft->nose_gear : &aircraft->main_gear;
@@ -143,8 +118,7 @@ static void describe_parts(const bt_aircraft_params* p, const bt_airframe* f,
         const bt_gear_params* gear = gear_of(p, leg);
         const double* axle = f->axle_m[leg];
         const double mp = gear->piston_mass_kg, mw = gear->wheel_mass_kg;
-        // a piston is a slender rod of half a metre; a wheel is a disc: half its inertia across
-        const double rod = mp * 0.25 / 12, across = 0.5 * gear->wheel_inertia_kgm2;
+        const double rod = mp * 0.25 / 12; // a piston is a slender rod of half a metre
         bt_body_def piston = {.name = bt_body_names[BT_BODY_NOSE_PISTON + leg],
                               .mass_kg = mp,
                               .inertia_kgm2 = {rod, rod, 0.1 * rod},
@@ -153,7 +127,8 @@ static void describe_parts(const bt_aircraft_params* p, const bt_airframe* f,
         bt_body_def wheel = piston;
         wheel.name = bt_body_names[BT_BODY_NOSE_WHEEL + leg];
         wheel.mass_kg = mw;
-        wheel.inertia_kgm2[0] = wheel.inertia_kgm2[2] = across * 1.1;
+        wheel.inertia_kgm2[0] = wheel.inertia_kgm2[2] =
+            bt_wheel_inertia_across(gear->wheel_inertia_kgm2);
         wheel.inertia_kgm2[1] = gear->wheel_inertia_kgm2;
         parts[BT_BODY_NOSE_PISTON + leg] = piston;
         parts[BT_BODY_NOSE_WHEEL + leg] = wheel;
@@ -249,28 +224,28 @@ static void add_hook(const bt_aircraft_params* p, const bt_hook_damper* damper, 
     f->hook_joint = bt_system_add_joint(f->system, &pivot);
 
     double on_shank[3], on_fuselage[3];
-    bt_hook_hold_place(h->down_stop_rad, h->damper_lever_m, h->damper_angle_rad, h->damper_length_m,
-                       on_shank, on_fuselage);
-    bt_hook_hold hold = {.damper = *damper,
-                         .length_m = h->damper_length_m,
-                         .point_b_m = {centre_m - h->damper_lever_m, 0, 0}};
+    bt_hook_damper_place(h->down_stop_rad, h->damper_lever_m, h->damper_angle_rad,
+                         h->damper_length_m, on_shank, on_fuselage);
+    bt_hook_damper_mount mount = {.damper = *damper,
+                                  .length_m = h->damper_length_m,
+                                  .point_b_m = {centre_m - h->damper_lever_m, 0, 0}};
     for (int i = 0; i < 3; ++i)
-        hold.point_a_m[i] = pivot.point_a_m[i] + on_fuselage[i];
-    f->damper = bt_system_add_element(f->system, &(bt_element){.type = &bt_hook_hold_type,
+        mount.point_a_m[i] = pivot.point_a_m[i] + on_fuselage[i];
+    f->damper = bt_system_add_element(f->system, &(bt_element){.type = &bt_hook_damper_element,
                                                                .name = "hook_damper",
                                                                .body_a = BT_BODY_FUSELAGE,
                                                                .body_b = root,
-                                                               .data = &hold});
-    const bt_centring centring = {.axis_a = {0, 1, 0},
-                                  .axis_b = {0, 0, 1},
-                                  .neutral_b = {0, 1, 0},
-                                  .stiffness_Nmprad = h->centring_stiffness_Nmprad,
-                                  .damping_Nmsprad = h->centring_damping_Nmsprad};
-    bt_system_add_element(f->system, &(bt_element){.type = &bt_centring_type,
-                                                   .name = "centring_damper",
+                                                               .data = &mount});
+    const bt_yaw_damper yaw = {.axis_a = {0, 1, 0},
+                               .axis_b = {0, 0, 1},
+                               .neutral_b = {0, 1, 0},
+                               .stiffness_Nmprad = h->centring_stiffness_Nmprad,
+                               .damping_Nmsprad = h->centring_damping_Nmsprad};
+    bt_system_add_element(f->system, &(bt_element){.type = &bt_yaw_damper_element,
+                                                   .name = "yaw_damper",
                                                    .body_a = BT_BODY_FUSELAGE,
                                                    .body_b = root,
-                                                   .data = &centring});
+                                                   .data = &yaw});
     if (f->shank.bends)
         add_shank_joint(f);
     f->shoe_contact = (bt_shoe){.shoe_radius_m = f->profile.shoe_radius,
@@ -293,9 +268,9 @@ static void hang_hook(const bt_hook_params* hook, const bt_hook_damper* damper, 
     const double head_Nm =
         shank->head.mass_kg * felt_mps2 * (shank->head.centre_m - shank->joint_m);
     for (int turn = 0; turn < (shank->bends ? 20 : 1); ++turn) {
-        const double root = f->hook_angle_rad =
-            bt_hook_hold_hanging_angle(damper, hook->down_stop_rad, hook->damper_lever_m,
-                                       hook->damper_angle_rad, hook->damper_length_m, moment_Nm, 0);
+        const double root = f->hook_angle_rad = bt_hook_damper_hanging_angle(
+            damper, hook->down_stop_rad, hook->damper_lever_m, hook->damper_angle_rad,
+            hook->damper_length_m, moment_Nm, 0);
         f->head_angle_rad = turn ? f->head_angle_rad : root;
         if (!shank->bends)
             return;
@@ -325,14 +300,14 @@ static bt_status assemble(const bt_aircraft_params* p, double gravity_mps2, bt_a
     add_legs(f);
     add_hook(p, &damper, f);
 
-    lift up = {.force_N = p->lift_ratio * p->mass_kg * gravity_mps2};
+    bt_force lift = {.force_N = {0, 0, p->lift_ratio * p->mass_kg * gravity_mps2}};
     static const double centre[3] = {0};
-    from_fuselage(f, centre, up.point_m);
-    bt_system_add_element(f->system, &(bt_element){.type = &lift_type,
+    from_fuselage(f, centre, lift.point_b_m);
+    bt_system_add_element(f->system, &(bt_element){.type = &bt_force_element,
                                                    .name = "lift",
-                                                   .body_a = BT_BODY_FUSELAGE,
-                                                   .body_b = BT_GROUND,
-                                                   .data = &up});
+                                                   .body_a = BT_GROUND,
+                                                   .body_b = BT_BODY_FUSELAGE,
+                                                   .data = &lift});
     const double gravity[3] = {0, 0, -gravity_mps2};
     bt_system_set_gravity(f->system, gravity);
     return bt_system_assemble(f->system, diag);

@@ -1,6 +1,6 @@
 /// The airframe as a multibody system [Peng2023 Eq. 1]: fuselage, three pistons on prismatic
 /// joints, three wheels on revolute joints, the hook on a universal joint (and a shank that bends
-/// on a sprung revolute one); struts, tyres, hook damper, centring damper, shoe on deck and lift as
+/// on a sprung revolute one); struts, tyres, hook damper, yaw damper, shoe on deck and lift as
 /// elements.
 #ifndef BT_LANDING_AIRFRAME_H
 #define BT_LANDING_AIRFRAME_H

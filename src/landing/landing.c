@@ -1,6 +1,6 @@
 #include "landing/landing.h"
 
-#include "elements/hook_hold.h"
+#include "elements/hook_damper_element.h"
 #include "elements/strut.h"
 #include "elements/wheel.h"
 #include "landing/airframe.h"
@@ -394,7 +394,7 @@ static void show(run* r, bt_landing_observer* observer, void* user, bool last) {
         .hook_angle_rad = hook_angle(s),
         .hook_height_m = leg_output(r, f->shoe, BT_SHOE_HEIGHT),
         .hook_deck_force_N = leg_output(r, f->shoe, BT_SHOE_FORCE),
-        .hook_damper_force_N = leg_output(r, f->damper, BT_HOOK_HOLD_FORCE),
+        .hook_damper_force_N = leg_output(r, f->damper, BT_HOOK_DAMPER_FORCE),
         .cable_wrench = s->applied,
         .cable_work_J = r->works.on_cable,
         .friction_J = r->works.friction,

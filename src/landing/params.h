@@ -79,11 +79,11 @@ BT_DECLARE_GROUP(hook_cable, BT_HOOK_CABLE_FIELDS)
     F(REAL, damper_length, m, OPTIONAL, 0.9, 0.05, 5, "Eq. 9",                                     \
       "damper between its attachment points at the down stop; the lever arm then follows the "     \
       "angle")                                                                                     \
-    F(GROUP, damper, hook_damper, REQUIRED, 0, 0, 0, "Eq. 9", "longitudinal damper")               \
+    F(VARIANT, damper, hook_damper, REQUIRED, 0, 0, 0, "Eq. 9", "longitudinal damper")             \
     F(REAL, centring_stiffness, Nmprad, OPTIONAL, 2e4, 0, 1e9, "",                                 \
-      "centring damper: stiffness about the yaw axis [assumed]")                                   \
+      "yaw damper: stiffness about the yaw axis [assumed]")                                        \
     F(REAL, centring_damping, Nmsprad, OPTIONAL, 800, 0, 1e7, "",                                  \
-      "centring damper: damping about the yaw axis [assumed]")                                     \
+      "yaw damper: damping about the yaw axis [assumed]")                                          \
     F(GROUP, profile, hook_profile, REQUIRED, 0, 0, 0, "",                                         \
       "outline of the head in its plane of symmetry")                                              \
     F(GROUP, deck_contact, impact, REQUIRED, 0, 0, 0, "Eq. 10", "shoe on deck")                    \

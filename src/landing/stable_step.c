@@ -71,6 +71,8 @@ int bt_airframe_stable_steps(const bt_model_params* model, bt_stable_step* steps
     const double about_pivot = shank.bends ? bt_shank_root_inertia(&shank) : hook->inertia_kgm2;
     const double flight_s = solver->airframe_step_s;
     const double contact_s = fmin(solver->contact_step_s, flight_s);
+    bt_hook_damper damper;
+    bt_hook_damper_prepare(&hook->damper, &damper);
     const bt_stable_step all[] = {
         {"aircraft.nose_gear.oleo", airframe, step_of(nose->oleo.stop_stiffness_Npm, nose_kg),
          flight_s},
@@ -80,7 +82,7 @@ int bt_airframe_stable_steps(const bt_model_params* model, bt_stable_step* steps
         {"aircraft.main_gear.tyre", airframe, step_of(tyre_slope(&main_gear->tyre), main_kg),
          flight_s},
         {"aircraft.hook.damper", contact,
-         step_of(hook->damper.stop_stiffness_Npm * lever * lever, about_pivot), contact_s},
+         bt_hook_damper_step_limit(&damper, about_pivot / (lever * lever)), contact_s},
         {"aircraft.hook.deck_contact", contact, shoe_step(model), contact_s},
         {"aircraft.hook.shank", airframe, 2 / sqrt(bt_shank_frequency2(&shank)), flight_s},
     };

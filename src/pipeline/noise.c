@@ -59,7 +59,7 @@ static bt_status take(void* user, const bt_job* job, const bt_landing_result* re
 static void refine(const bt_noise_variant* variant, bt_model_params* model) {
     for (const bt_noise_change* change = variant->changes; change->path; ++change) {
         size_t offset;
-        const bt_field* field = bt_group_find(&bt_model_group, change->path, &offset);
+        const bt_field* field = bt_params_find(&bt_model_group, model, change->path, &offset);
         bt_field_set(field, model, offset, change->factor * bt_field_get(field, model, offset));
     }
 }

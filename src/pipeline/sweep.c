@@ -37,8 +37,9 @@ static bool look_nearer(void* user, const bt_field* field, const char* path, siz
     return true;
 }
 
-bt_status bt_sweep_find(const char* key, const bt_field** field, size_t* offset, bt_diag* diag) {
-    *field = bt_group_find(&bt_model_group, key, offset);
+bt_status bt_sweep_find(const bt_model_params* model, const char* key, const bt_field** field,
+                        size_t* offset, bt_diag* diag) {
+    *field = bt_params_find(&bt_model_group, model, key, offset);
     if (*field && is_number(*field))
         return BT_OK;
     if (*field) {
@@ -46,7 +47,7 @@ bt_status bt_sweep_find(const char* key, const bt_field** field, size_t* offset,
         return BT_ERR_INPUT;
     }
     nearest_key nearest = {.typed = key, .distance = INT_MAX};
-    bt_group_walk(&bt_model_group, look_nearer, &nearest);
+    bt_params_walk(&bt_model_group, model, look_nearer, &nearest);
     bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "%s: unknown key; did you mean \"%s\"?", key,
                 nearest.best);
     return BT_ERR_INPUT;
@@ -223,7 +224,7 @@ bt_status bt_sweep_run(const bt_model_params* model, const char* key, const doub
     shared s = {.model = model, .sweep = sweep, .diag = diag};
     if (count < 1 || count > BT_SWEEP_VALUES_MAX)
         return BT_ERR_ARG;
-    BT_TRY(bt_sweep_find(key, &sweep->field, &s.offset, diag));
+    BT_TRY(bt_sweep_find(model, key, &sweep->field, &s.offset, diag));
     sweep->rows = calloc((size_t)count, sizeof *sweep->rows);
     if (!sweep->rows)
         return BT_ERR_MEMORY;

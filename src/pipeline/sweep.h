@@ -27,8 +27,8 @@ typedef struct bt_sweep {
 
 /// Finds a numeric key of the model ("landing.sink_speed"). BT_ERR_INPUT, said in diag with the
 /// nearest key.
-BT_CHECKED bt_status bt_sweep_find(const char* key, const bt_field** field, size_t* offset,
-                                   bt_diag* diag);
+BT_CHECKED bt_status bt_sweep_find(const bt_model_params* model, const char* key,
+                                   const bt_field** field, size_t* offset, bt_diag* diag);
 
 /// Reads "3.6 m/s, 4 m/s, 5 m/s": at most BT_SWEEP_VALUES_MAX values of a field, each with its
 /// unit and inside its range. BT_ERR_INPUT, said in diag.

@@ -21,7 +21,8 @@ static void add_bodies(const bt_gear_params* gear, const bt_drop_params* drop, d
                        drop_rig* d) {
     bt_system* system = d->rig.system;
     const double axle = gear->tyre.radius_m, unsprung = gear->piston_mass_kg + gear->wheel_mass_kg;
-    const double sprung = drop->mass_kg - unsprung, across = 0.6 * gear->wheel_inertia_kgm2;
+    const double sprung = drop->mass_kg - unsprung,
+                 across = bt_wheel_inertia_across(gear->wheel_inertia_kgm2);
     d->start_m = axle + 1 - stroke_m;
     const bt_body_def bodies[] = {
         {.name = "mass",
@@ -188,7 +189,7 @@ static double friction_slope(const drop_rig* d, double stroke_m, double rate_mps
                              double last_rate_mps) {
     const bt_oleo* o = &d->oleo;
     const double speed = o->friction_speed;
-    if (!o->rubs || fabs(rate_mps) > speed + 2 * fabs(rate_mps - last_rate_mps))
+    if (!o->has_friction || fabs(rate_mps) > speed + 2 * fabs(rate_mps - last_rate_mps))
         return 0;
     const double full = bt_oleo_friction_force(o, stroke_m, speed, bt_oleo_gas_force(o, stroke_m),
                                                bt_oleo_oil_force(o, stroke_m, rate_mps));
@@ -202,9 +203,9 @@ static double stiffness(const bt_drop_params* drop, const drop_rig* d,
     const bt_oleo* o = &d->oleo;
     const double ahead = channel[STROKE] + channel[STROKE_RATE] * drop->step_s;
     const bool stops =
-        fmin(channel[STROKE], ahead) < 0 || fmax(channel[STROKE], ahead) > o->stroke_max;
+        fmin(channel[STROKE], ahead) < 0 || fmax(channel[STROKE], ahead) > o->stops.stroke_max;
     const double deflection = channel[TYRE] + d->sink_mps * drop->step_s;
-    return bt_tyre_stiffness(&d->tyre, deflection) + (stops ? o->stop_stiffness : 0);
+    return bt_tyre_stiffness(&d->tyre, deflection) + (stops ? o->stops.stiffness : 0);
 }
 
 /// The step that is asked for, or a shorter one: half of 1 / omega of the unsprung mass on what it

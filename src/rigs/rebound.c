@@ -1,5 +1,5 @@
-#include "elements/centring.h"
-#include "elements/hook_hold.h"
+#include "elements/hook_damper_element.h"
+#include "elements/yaw_damper.h"
 #include "landing/profile.h"
 #include "landing/shoe.h"
 #include "mechanics/vec.h"
@@ -182,20 +182,20 @@ static void add_elements(const bt_hook_params* hook, const bt_hook_damper* dampe
                          const bt_rebound_params* p, double pivot_height_m, rebound_rig* r) {
     bt_system* system = r->rig.system;
     double on_shank[3];
-    bt_hook_hold hold = {.damper = *damper,
-                         .point_b_m = {hook->mass_centre_m - hook->damper_lever_m, 0, 0},
-                         .length_m = hook->damper_length_m};
-    bt_hook_hold_place(hook->down_stop_rad, hook->damper_lever_m, hook->damper_angle_rad,
-                       hook->damper_length_m, on_shank, hold.point_a_m);
-    const bt_centring centring = {.axis_a = {0, 1, 0},
-                                  .axis_b = {0, 0, 1},
-                                  .neutral_b = {0, 1, 0},
-                                  .stiffness_Nmprad = hook->centring_stiffness_Nmprad,
-                                  .damping_Nmsprad = hook->centring_damping_Nmsprad};
+    bt_hook_damper_mount mount = {.damper = *damper,
+                                  .point_b_m = {hook->mass_centre_m - hook->damper_lever_m, 0, 0},
+                                  .length_m = hook->damper_length_m};
+    bt_hook_damper_place(hook->down_stop_rad, hook->damper_lever_m, hook->damper_angle_rad,
+                         hook->damper_length_m, on_shank, mount.point_a_m);
+    const bt_yaw_damper yaw = {.axis_a = {0, 1, 0},
+                               .axis_b = {0, 0, 1},
+                               .neutral_b = {0, 1, 0},
+                               .stiffness_Nmprad = hook->centring_stiffness_Nmprad,
+                               .damping_Nmsprad = hook->centring_damping_Nmsprad};
     const buffer under = {p->buffer_stiffness_Npm, p->buffer_damping_Npmps, pivot_height_m};
     r->damper =
-        add_element(system, &bt_hook_hold_type, "hook_damper", BODY_BASKET, BODY_HOOK, &hold);
-    add_element(system, &bt_centring_type, "centring_damper", BODY_BASKET, BODY_HOOK, &centring);
+        add_element(system, &bt_hook_damper_element, "hook_damper", BODY_BASKET, BODY_HOOK, &mount);
+    add_element(system, &bt_yaw_damper_element, "yaw_damper", BODY_BASKET, BODY_HOOK, &yaw);
     r->shoe =
         add_element(system, &bt_shoe_type, "hook_shoe", BODY_HOOK, BT_GROUND, &r->shoe_contact);
     add_element(system, &buffer_type, "buffer", BODY_BASKET, BT_GROUND, &under);
@@ -206,7 +206,7 @@ static bt_status build(const bt_hook_params* hook, const bt_rebound_params* p, r
     bt_hook_damper damper;
     bt_hook_damper_prepare(&hook->damper, &damper);
     const double felt = p->lift_ratio * p->gravity_mps2;
-    const double shank = bt_hook_hold_hanging_angle(
+    const double shank = bt_hook_damper_hanging_angle(
         &damper, hook->down_stop_rad, hook->damper_lever_m, hook->damper_angle_rad,
         hook->damper_length_m, hook->mass_kg * felt * hook->mass_centre_m, p->pitch_rad);
     double pivot_height;
@@ -229,8 +229,8 @@ static void look(const rebound_rig* r, double basket_start_m, double channel[BT_
     channel[HEIGHT] = shoe[BT_SHOE_HEIGHT];
     channel[FORCE] = shoe[BT_SHOE_FORCE];
     channel[X] = shoe[BT_SHOE_X] - r->start_x_m;
-    channel[DAMPER_STROKE] = damper[BT_HOOK_HOLD_STROKE];
-    channel[DAMPER_FORCE] = damper[BT_HOOK_HOLD_FORCE];
+    channel[DAMPER_STROKE] = damper[BT_HOOK_DAMPER_STROKE];
+    channel[DAMPER_FORCE] = damper[BT_HOOK_DAMPER_FORCE];
     channel[BASKET] = basket_start_m - r->rig.state.q[7 * BODY_BASKET + 2];
 }
 

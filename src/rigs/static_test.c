@@ -13,9 +13,9 @@ static double load(const bt_oleo* oleo, double stroke_m, double speed_mps, doubl
     const double rate = direction * speed_mps;
     const double gas = bt_oleo_gas_force(oleo, stroke_m);
     const double oil = bt_oleo_oil_force(oleo, stroke_m, rate);
-    const double rub =
+    const double friction =
         bt_oleo_friction_force(oleo, stroke_m, direction * oleo->friction_speed, gas, oil);
-    return gas + oil + bt_oleo_limit_force(oleo, stroke_m, rate) + rub;
+    return gas + oil + bt_oleo_limit_force(oleo, stroke_m, rate) + friction;
 }
 
 typedef struct press {

@@ -50,11 +50,14 @@ static void write_table(FILE* out, const bt_field* field, const bt_table* table)
 static void write_group(FILE* out, const bt_group* group, const void* params, int depth,
                         const bt_node* typed);
 
+static void write_variant(FILE* out, const bt_variant* variant, const bt_variant_head* member,
+                          int depth, const bt_node* typed);
+
 static void write_field(FILE* out, const bt_field* field, const void* member, int depth,
                         const bt_node* typed) {
     char text[TEXT_SIZE];
     fprintf(out, "%*s%s:%s", depth * INDENT, "", field->name,
-            field->kind == BT_FIELD_GROUP ? "\n" : " ");
+            field->kind == BT_FIELD_GROUP || field->kind == BT_FIELD_VARIANT ? "\n" : " ");
     switch (field->kind) {
     case BT_FIELD_REAL:
     case BT_FIELD_PLAIN:
@@ -78,7 +81,17 @@ static void write_field(FILE* out, const bt_field* field, const void* member, in
     case BT_FIELD_GROUP:
         write_group(out, field->group, member, depth + 1, typed);
         break;
+    case BT_FIELD_VARIANT:
+        write_variant(out, field->variant, member, depth + 1, typed);
+        break;
     }
+}
+
+static void write_variant(FILE* out, const bt_variant* variant, const bt_variant_head* member,
+                          int depth, const bt_node* typed) {
+    write_field(out, &variant->type, &member->type, depth,
+                bt_node_child(typed, variant->type.name));
+    write_group(out, bt_variant_group(variant, member), member->params, depth, typed);
 }
 
 static void write_group(FILE* out, const bt_group* group, const void* params, int depth,
@@ -303,7 +316,7 @@ static void add_axis(hasher* h, const bt_input* input, bool by_distribution) {
 
 uint64_t bt_study_hash(const bt_study* study) {
     hasher h = {0xcbf29ce484222325u, &study->model};
-    bt_group_walk(&bt_model_group, add_field, &h);
+    bt_params_walk(&bt_model_group, &study->model, add_field, &h);
     const bool by_distribution = study->campaign.design == BT_DESIGN_MONTE_CARLO;
     add_text(&h, bt_design_names[study->campaign.design]);
     add_number(&h, (double)study->campaign.seed);

@@ -34,12 +34,14 @@ static bool compare_path(void* user, const bt_field* field, const char* path, si
 }
 
 static void report_path(bt_reader* reader, const bt_node* key, const char* chapter,
-                        const bt_field* field) {
+                        const bt_model_params* model, const bt_field* field) {
     const char* typed = key->text;
-    if (field && field->kind == BT_FIELD_GROUP) {
+    if (field && (field->kind == BT_FIELD_GROUP || field->kind == BT_FIELD_VARIANT)) {
+        const bt_group* below =
+            field->kind == BT_FIELD_GROUP ? field->group : field->variant->groups[0];
         bt_reader_error(reader, key->where,
                         "%s.%s: a group of keys; name one of its values, as in %s.%s", chapter,
-                        typed, typed, field->group->fields[0].name);
+                        typed, typed, below->fields[0].name);
         return;
     }
     if (field) {
@@ -49,7 +51,7 @@ static void report_path(bt_reader* reader, const bt_node* key, const char* chapt
         return;
     }
     nearest n = {.typed = typed, .distance = INT_MAX};
-    bt_group_walk(&bt_model_group, compare_path, &n);
+    bt_params_walk(&bt_model_group, model, compare_path, &n);
     char help[PATH_SIZE + 32];
     bt_reader_suggest(typed, n.best, n.distance, help, sizeof help);
     bt_reader_error(reader, key->where, "%s.%s: no such key of the model%s", chapter, typed,
@@ -63,9 +65,9 @@ static bt_input* find_or_add(bt_reader* reader, bt_study* study, const bt_node* 
         if (strcmp(study->inputs[i].path, key->text) == 0)
             return &study->inputs[i];
     size_t offset;
-    const bt_field* field = bt_group_find(&bt_model_group, key->text, &offset);
+    const bt_field* field = bt_params_find(&bt_model_group, &study->model, key->text, &offset);
     if (!field || !may_be_input(field) || strlen(key->text) >= BT_PATH_MAX) {
-        report_path(reader, key, chapter, field);
+        report_path(reader, key, chapter, &study->model, field);
         return NULL;
     }
     if (study->input_count == BT_INPUT_MAX) {

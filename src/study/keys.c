@@ -89,9 +89,17 @@ static void print_fallback(const bt_field* field, char* text, size_t size) {
         snprintf(text, size, "[]");
         break;
     case BT_FIELD_GROUP:
+    case BT_FIELD_VARIANT:
         *text = '\0';
         break;
     }
+}
+
+/// The tables below a field: one of a group, all of a variant, none of a leaf.
+static const bt_group* table_below(const bt_field* field, int index) {
+    if (field->kind == BT_FIELD_VARIANT)
+        return index < field->variant->count ? field->variant->groups[index] : NULL;
+    return field->kind == BT_FIELD_GROUP && index == 0 ? field->group : NULL;
 }
 
 /// The range of a number, the names of a choice.
@@ -100,6 +108,10 @@ static void print_range(const bt_field* field, char* text, size_t size) {
     if (field->kind == BT_FIELD_CHOICE)
         for (int i = 0; field->choices[i]; ++i)
             bt_text_append(text, size, "%s%s", i ? ", " : "", field->choices[i]);
+    if (field->kind == BT_FIELD_VARIANT)
+        for (int i = 0; i < field->variant->count; ++i)
+            bt_text_append(text, size, "%s%s",
+                           i ? ", " : "type: ", field->variant->type.choices[i]);
     if (field->kind == BT_FIELD_FLAG)
         snprintf(text, size, "true, false");
     const bool number = field->kind <= BT_FIELD_COUNT || field->kind == BT_FIELD_LIST;
@@ -115,7 +127,7 @@ static void fill_row(const bt_field* field, char cells[COLUMNS][CELL]) {
     snprintf(cells[0], CELL, "%s", field->name);
     print_units(field, cells[1], CELL);
     print_fallback(field, cells[2], CELL);
-    if (field->need == BT_REQUIRED || field->kind == BT_FIELD_GROUP)
+    if (field->need == BT_REQUIRED || table_below(field, 0))
         snprintf(cells[2], CELL, "%s", field->need == BT_REQUIRED ? "required" : "optional");
     print_range(field, cells[3], CELL);
     snprintf(cells[4], CELL, "%s", field->equation);
@@ -137,15 +149,23 @@ static void put_cell(const writer* w, const char* text, int width) {
     put(w, "| %-*s ", width, cell);
 }
 
-static void put_group(const writer* w, const bt_group* group) {
+/// A row of a group, or before all of them the key `type` of the variant it belongs to.
+static const bt_field* row(const bt_group* group, const bt_field* type, int index) {
+    if (type)
+        return index == 0 ? type : &group->fields[index - 1];
+    return &group->fields[index];
+}
+
+static void put_group(const writer* w, const bt_group* group, const bt_field* type) {
     static const char* const heads[COLUMNS] = {"key",   "unit",  "default",
                                                "range", "paper", "meaning"};
+    const int rows = group->field_count + (type != NULL);
     int width[COLUMNS];
     char cells[COLUMNS][CELL];
     for (int c = 0; c < COLUMNS; ++c)
         width[c] = (int)strlen(heads[c]);
-    for (int i = 0; i < group->field_count; ++i) {
-        fill_row(&group->fields[i], cells);
+    for (int i = 0; i < rows; ++i) {
+        fill_row(row(group, type, i), cells);
         for (int c = 0; c < COLUMNS - 1; ++c)
             if ((int)strlen(cells[c]) > width[c])
                 width[c] = (int)strlen(cells[c]);
@@ -158,11 +178,11 @@ static void put_group(const writer* w, const bt_group* group) {
             "----------------------------------------------------------------------------------"
             "------------------");
     put(w, "|\n");
-    for (int i = 0; i < group->field_count; ++i) {
-        fill_row(&group->fields[i], cells);
+    for (int i = 0; i < rows; ++i) {
+        fill_row(row(group, type, i), cells);
         for (int c = 0; c < COLUMNS - 1; ++c)
             put_cell(w, cells[c], width[c]);
-        put_cell(w, group->fields[i].text, 0);
+        put_cell(w, row(group, type, i)->text, 0);
         put(w, "|\n");
     }
 }
@@ -173,11 +193,16 @@ static void append_paths(const bt_group* in, const char* path, const bt_group* w
     if (in == wanted)
         bt_text_append(text, size, "%s%s", *text ? ", " : "", path);
     for (int i = 0; i < in->field_count; ++i) {
-        if (in->fields[i].kind != BT_FIELD_GROUP)
-            continue;
-        char below[PATH_SIZE];
-        snprintf(below, sizeof below, "%s.%s", path, in->fields[i].name);
-        append_paths(in->fields[i].group, below, wanted, text, size);
+        const bt_field* field = &in->fields[i];
+        const bt_group* table;
+        for (int k = 0; (table = table_below(field, k)) != NULL; ++k) {
+            char below[PATH_SIZE];
+            snprintf(below, sizeof below, "%s.%s", path, field->name);
+            if (field->kind == BT_FIELD_VARIANT)
+                bt_text_append(below, sizeof below, " (type: %s%s)",
+                               field->variant->type.choices[k], k == 0 ? ", the default" : "");
+            append_paths(table, below, wanted, text, size);
+        }
     }
 }
 
@@ -196,18 +221,23 @@ static bool see(seen* s, const bt_group* group) {
     return true;
 }
 
-static void put_sections(const writer* w, const chapter* top, const bt_group* group, seen* s) {
+static void put_sections(const writer* w, const chapter* top, const bt_group* group,
+                         const bt_field* type, seen* s) {
     if (!see(s, group))
         return;
     char paths[512] = "";
     append_paths(top->group, top->name, group, paths, sizeof paths);
     put(w, "\n## %s\n\n%s.\n\n", paths, group->text);
-    put_group(w, group);
+    put_group(w, group, type);
     if (group == top->group && top->also)
         put(w, "\n%s", top->also);
-    for (int i = 0; i < group->field_count; ++i)
-        if (group->fields[i].kind == BT_FIELD_GROUP)
-            put_sections(w, top, group->fields[i].group, s);
+    for (int i = 0; i < group->field_count; ++i) {
+        const bt_field* field = &group->fields[i];
+        const bt_field* inner = field->kind == BT_FIELD_VARIANT ? &field->variant->type : NULL;
+        const bt_group* table;
+        for (int k = 0; (table = table_below(field, k)) != NULL; ++k)
+            put_sections(w, top, table, inner, s);
+    }
 }
 
 static void put_distributions(const writer* w) {
@@ -234,7 +264,7 @@ void bt_study_keys(bt_text_sink* write, void* user) {
             "another file, relative to the study.\n");
     seen s = {.count = 0};
     for (int i = 0; i < CHAPTERS; ++i) {
-        put_sections(&w, &chapters[i], chapters[i].group, &s);
+        put_sections(&w, &chapters[i], chapters[i].group, NULL, &s);
         if (strcmp(chapters[i].name, "landing") == 0)
             put_distributions(&w);
     }
@@ -255,6 +285,14 @@ static const char* start_value(const bt_group* group, const char* key, const cha
     return fallback;
 }
 
+/// The key that chooses the type of a variant; the keys of its default type follow.
+static void put_type(const writer* w, const bt_field* type, int depth) {
+    char names[CELL];
+    print_range(type, names, sizeof names);
+    put(w, "%*s# %s; %s\n%*stype: %s\n", 2 * depth, "", type->text, names, 2 * depth, "",
+        type->choices[0]);
+}
+
 static void put_defaults(const writer* w, const bt_group* group, int depth) {
     for (int i = 0; i < group->field_count; ++i) {
         const bt_field* field = &group->fields[i];
@@ -266,8 +304,10 @@ static void put_defaults(const writer* w, const bt_group* group, int depth) {
             field->need == BT_REQUIRED ? "; required" : "");
         const char* value = start_value(group, field->name, fallback);
         put(w, "%*s%s:%s%s\n", 2 * depth, "", field->name, *value ? " " : "", value);
-        if (field->kind == BT_FIELD_GROUP)
-            put_defaults(w, field->group, depth + 1);
+        if (field->kind == BT_FIELD_VARIANT)
+            put_type(w, &field->variant->type, depth + 1);
+        if (table_below(field, 0))
+            put_defaults(w, table_below(field, 0), depth + 1);
     }
 }
 

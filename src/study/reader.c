@@ -18,7 +18,7 @@ static void collect(void* user, bt_severity severity, bt_where where, const char
         reader->dropped += severity == BT_ERROR;
         return;
     }
-    bt_message* message = &reader->messages[reader->message_count++];
+    bt_reader_message* message = &reader->messages[reader->message_count++];
     message->severity = severity;
     message->where = where;
     snprintf(message->text, sizeof message->text, "%s", text);
@@ -41,7 +41,7 @@ bt_diag bt_reader_diag(bt_reader* reader) {
 }
 
 /// The number of the first message about the same file.
-static int file_rank(const bt_reader* reader, const bt_message* message) {
+static int file_rank(const bt_reader* reader, const bt_reader_message* message) {
     const char* file = message->where.file ? message->where.file : "";
     for (int i = 0; i < reader->message_count; ++i) {
         const char* other = reader->messages[i].where.file;
@@ -51,7 +51,8 @@ static int file_rank(const bt_reader* reader, const bt_message* message) {
     return 0;
 }
 
-static bool comes_before(const bt_reader* reader, const bt_message* a, const bt_message* b) {
+static bool comes_before(const bt_reader* reader, const bt_reader_message* a,
+                         const bt_reader_message* b) {
     const int rank_a = file_rank(reader, a), rank_b = file_rank(reader, b);
     if (rank_a != rank_b)
         return rank_a < rank_b;
@@ -61,7 +62,7 @@ static bool comes_before(const bt_reader* reader, const bt_message* a, const bt_
 }
 
 void bt_reader_flush(bt_reader* reader, bt_diag* diag) {
-    const bt_message* order[BT_MESSAGES_SHOWN_MAX];
+    const bt_reader_message* order[BT_MESSAGES_SHOWN_MAX];
     for (int i = 0; i < reader->message_count; ++i) { // insertion keeps equals in their order
         int k = i;
         for (; k > 0 && comes_before(reader, &reader->messages[i], order[k - 1]); --k)
@@ -323,6 +324,9 @@ static void read_table(bt_reader* reader, const bt_field* field, const bt_node* 
 
 // --- groups ---------------------------------------------------------------------------------
 
+static void read_variant(bt_reader* reader, const bt_variant* variant, const bt_node* node,
+                         const char* path, bt_variant_head* member);
+
 static void read_field(bt_reader* reader, const bt_field* field, const bt_node* node,
                        const char* path, void* member) {
     double number;
@@ -347,6 +351,9 @@ static void read_field(bt_reader* reader, const bt_field* field, const bt_node* 
         break;
     case BT_FIELD_GROUP:
         bt_reader_group(reader, field->group, member, path, node, NULL);
+        break;
+    case BT_FIELD_VARIANT:
+        read_variant(reader, field->variant, node, path, member);
         break;
     }
 }
@@ -455,4 +462,21 @@ void bt_reader_group(bt_reader* reader, const bt_group* group, void* params, con
     }
     if (reader->errors == before)
         check_group(reader, group, params, path, node);
+}
+
+/// Reads `type` and then the keys of that type. Nothing below a type that is none is judged.
+static void read_variant(bt_reader* reader, const bt_variant* variant, const bt_node* node,
+                         const char* path, bt_variant_head* member) {
+    const char* const also[] = {variant->type.name, NULL};
+    const bt_node* typed =
+        node->kind == BT_NODE_MAPPING ? bt_node_child(node, variant->type.name) : NULL;
+    if (typed) {
+        char place[PATH_SIZE];
+        int type = 0;
+        bt_reader_join(place, sizeof place, path, variant->type.name);
+        if (!bt_reader_choice(reader, variant->type.choices, typed, place, &type))
+            return;
+        bt_variant_set(variant, type, member);
+    }
+    bt_reader_group(reader, bt_variant_group(variant, member), member->params, path, node, also);
 }

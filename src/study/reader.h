@@ -7,18 +7,18 @@
 
 enum { BT_MESSAGES_SHOWN_MAX = 20, BT_MESSAGE_SIZE = 1024 };
 
-typedef struct bt_message {
+typedef struct bt_reader_message {
     bt_severity severity;
     bt_where where;
     char text[BT_MESSAGE_SIZE];
-} bt_message;
+} bt_reader_message;
 
 /// Collects messages, to hand them on in the order of the files.
 typedef struct bt_reader {
     int errors;  ///< all of them; at most BT_MESSAGES_SHOWN_MAX messages are kept
     int dropped; ///< messages beyond that
     int message_count;
-    bt_message messages[BT_MESSAGES_SHOWN_MAX];
+    bt_reader_message messages[BT_MESSAGES_SHOWN_MAX];
 } bt_reader;
 
 /// Adds an error at a place; text begins with the path it is about. Control characters that came

@@ -1,6 +1,6 @@
 #include "reference.h"
 
-#include "elements/hook_hold.h"
+#include "elements/hook_damper_element.h"
 #include "elements/strut.h"
 #include "landing/airframe.h"
 #include "mechanics/vec.h"
@@ -141,7 +141,7 @@ static void the_pivot_carries_what_statics_says(void** state) {
     const bt_hook_params* h = &r.model.aircraft.hook;
     const double weight = h->mass_kg * r.model.deck.gravity_mps2;
     const double damper = bt_system_element_output(r.airframe.system, &r.state,
-                                                   r.airframe.damper)[BT_HOOK_HOLD_FORCE];
+                                                   r.airframe.damper)[BT_HOOK_DAMPER_FORCE];
     const double angle = r.airframe.hook_angle_rad;
     // the arm hangs within 0.5 % of its value at the stop
     BT_ASSERT_NEAR(damper * h->damper_lever_m, -weight * h->mass_centre_m * cos(angle), 5e-3, 0);

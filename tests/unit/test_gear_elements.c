@@ -1,9 +1,10 @@
-/// Strut, wheel, hook hold and centring as elements: equal and opposite, and the power they take
+/// Strut, wheel, hook damper and centring as elements: equal and opposite, and the power they take
 /// is the change of their energy plus what they dissipate, for bodies in any attitude.
-#include "elements/centring.h"
-#include "elements/hook_hold.h"
+#include "elements/hook_damper_element.h"
+#include "elements/hook_damper_orifice.h"
 #include "elements/strut.h"
 #include "elements/wheel.h"
+#include "elements/yaw_damper.h"
 #include "mechanics/vec.h"
 #include "near.h"
 
@@ -138,19 +139,19 @@ static void strut_power_is_energy_and_damping(void** state) {
     }
 }
 
-static bt_hook_hold hold_data(void) {
-    bt_hook_damper_params p;
-    bt_group_set_defaults(&bt_hook_damper_group, &p);
-    bt_hook_hold h = {.length_m = 0.9};
+static bt_hook_damper_mount mount_data(void) {
+    bt_hook_damper_variant p;
+    bt_variant_set(&bt_hook_damper_types, 0, (void*)&p);
+    bt_hook_damper_mount h = {.length_m = 0.9};
     bt_hook_damper_prepare(&p, &h.damper);
-    bt_hook_hold_place(1.2147, 0.417, 1.5708, 0.9, h.point_b_m, h.point_a_m);
+    bt_hook_damper_place(1.2147, 0.417, 1.5708, 0.9, h.point_b_m, h.point_a_m);
     return h;
 }
 
-static void eq9_hook_hold_is_equal_and_opposite_and_keeps_the_energy(void** state) {
+static void eq9_hook_damper_is_equal_and_opposite_and_keeps_the_energy(void** state) {
     (void)state;
-    const bt_hook_hold data = hold_data();
-    const bt_element e = {&bt_hook_hold_type, "hold", 0, 1, &data};
+    const bt_hook_damper_mount data = mount_data();
+    const bt_element e = {&bt_hook_damper_element, "hook_damper", 0, 1, &data};
     uint32_t seed = 7;
     for (int i = 0; i < 100; ++i) {
         scene s;
@@ -159,22 +160,22 @@ static void eq9_hook_hold_is_equal_and_opposite_and_keeps_the_energy(void** stat
             s.q[7 + k] = s.q[k] + 0.05 * random_number(&seed);
         evaluate(&e, &s);
         assert_equal_and_opposite(&s);
-        const double stroke = s.output[BT_HOOK_HOLD_STROKE], rate = s.output[BT_HOOK_HOLD_RATE];
+        const double stroke = s.output[BT_HOOK_DAMPER_STROKE], rate = s.output[BT_HOOK_DAMPER_RATE];
         if (fabs(stroke) < 1e-4)
             continue;
-        const double damping = bt_hook_damper_oil_force(&data.damper, rate);
+        const double damping = bt_hook_damper_orifice_oil((const void*)data.damper.data, rate);
         BT_ASSERT_NEAR(power(&s), -energy_rate(&e, &s) - damping * rate, 1e-5, 0.1);
     }
 }
 
 /// At the down stop the damper is extended, and its lever arm is what the drawing says; it presses
 /// the hook down; and it shortens as the hook rises.
-static void eq9_hook_hold_is_placed_as_drawn(void** state) {
+static void eq9_hook_damper_is_placed_as_drawn(void** state) {
     (void)state;
     const double phi = 1.2147, lever = 0.417, length = 0.9;
     for (double angle = 0.6; angle < 2.6; angle += 0.5) {
         double shank[3], fuselage[3], along[3], moment[3];
-        bt_hook_hold_place(phi, lever, angle, length, shank, fuselage);
+        bt_hook_damper_place(phi, lever, angle, length, shank, fuselage);
         double push[3];
         for (int i = 0; i < 3; ++i)
             push[i] = (shank[i] - fuselage[i]) / length;
@@ -195,25 +196,25 @@ static void eq9_hook_hold_is_placed_as_drawn(void** state) {
 /// At the hanging angle the moments of damper and weight about the pivot cancel.
 static void eq9_hook_hangs_in_balance_on_its_down_stop(void** state) {
     (void)state;
-    bt_hook_hold data = hold_data();
+    bt_hook_damper_mount data = mount_data();
     const double weight_moment = 107.9 * 9.8 * 1.293, pitch = 0.1;
-    const double shank =
-        bt_hook_hold_hanging_angle(&data.damper, 1.2147, 0.417, 1.5708, 0.9, weight_moment, pitch);
+    const double shank = bt_hook_damper_hanging_angle(&data.damper, 1.2147, 0.417, 1.5708, 0.9,
+                                                      weight_moment, pitch);
     assert_true(shank > 1.2147 && shank < 1.2147 + 0.01);
     // Both bodies with their origin at the pivot; b turned by what the shank hangs below the stop.
     const double turn = 0.5 * (shank - 1.2147);
-    const bt_element e = {&bt_hook_hold_type, "hold", 0, 1, &data};
+    const bt_element e = {&bt_hook_damper_element, "hook_damper", 0, 1, &data};
     scene s = {.q = {0, 0, 0, 1, 0, 0, 0, 0, 0, 0, cos(turn), 0, -sin(turn), 0}};
     refresh(&s);
     evaluate(&e, &s);
-    assert_true(s.output[BT_HOOK_HOLD_STROKE] < 0);
+    assert_true(s.output[BT_HOOK_DAMPER_STROKE] < 0);
     BT_ASSERT_NEAR(s.wrench[10], weight_moment * cos(shank + pitch), 1e-6, 0);
 }
 
-static void centring_is_equal_and_opposite_and_keeps_the_energy(void** state) {
+static void yaw_damper_is_equal_and_opposite_and_keeps_the_energy(void** state) {
     (void)state;
-    const bt_centring data = {{0, 1, 0}, {0, 0, 1}, {0, 1, 0}, 2e4, 800};
-    const bt_element e = {&bt_centring_type, "centring", 0, 1, &data};
+    const bt_yaw_damper data = {{0, 1, 0}, {0, 0, 1}, {0, 1, 0}, 2e4, 800};
+    const bt_element e = {&bt_yaw_damper_element, "yaw_damper", 0, 1, &data};
     uint32_t seed = 11;
     for (int i = 0; i < 100; ++i) {
         // A hook on its universal joint: pitch about y of the fuselage, yaw about its own z.
@@ -235,9 +236,9 @@ static void centring_is_equal_and_opposite_and_keeps_the_energy(void** state) {
         bt_unrotate(s.rotation + 9, world, s.v + 9);
         bt_add_scaled(s.v + 9, 1, z);
         evaluate(&e, &s);
-        BT_ASSERT_NEAR(s.output[BT_CENTRING_ANGLE], yaw, 1e-12, 1e-13);
-        BT_ASSERT_NEAR(s.output[BT_CENTRING_RATE], yaw_rate, 1e-12, 1e-12);
-        BT_ASSERT_NEAR(s.output[BT_CENTRING_TORQUE], -2e4 * yaw - 800 * yaw_rate, 1e-11, 1e-9);
+        BT_ASSERT_NEAR(s.output[BT_YAW_DAMPER_ANGLE], yaw, 1e-12, 1e-13);
+        BT_ASSERT_NEAR(s.output[BT_YAW_DAMPER_RATE], yaw_rate, 1e-12, 1e-12);
+        BT_ASSERT_NEAR(s.output[BT_YAW_DAMPER_TORQUE], -2e4 * yaw - 800 * yaw_rate, 1e-11, 1e-9);
         assert_equal_and_opposite(&s);
         BT_ASSERT_NEAR(power(&s), -energy_rate(&e, &s) - 800 * yaw_rate * yaw_rate, 1e-5, 1e-3);
     }
@@ -398,13 +399,14 @@ static void laws_tell_where_they_end(void** state) {
     output[BT_WHEEL_DEFLECTION] = 0.11;
     assert_string_equal(said(&w, output, BT_LAW_AT_LIMIT), "tyre on its rim");
 
-    const bt_hook_hold hold = hold_data(); // stroke 0.6 m, gas gone at 3e-3 / 1.96e-3 = 1.53 m
-    const bt_element h = {&bt_hook_hold_type, "hold", 0, 1, &hold};
-    output[BT_HOOK_HOLD_STROKE] = -0.01; // on the down stop it always is
+    const bt_hook_damper_mount mount =
+        mount_data(); // stroke 0.6 m, gas gone at 3e-3 / 1.96e-3 = 1.53 m
+    const bt_element h = {&bt_hook_damper_element, "hook_damper", 0, 1, &mount};
+    output[BT_HOOK_DAMPER_STROKE] = -0.01; // on the down stop it always is
     assert_string_equal(said(&h, output, BT_LAW_HOLDS), "");
-    output[BT_HOOK_HOLD_STROKE] = 0.61;
+    output[BT_HOOK_DAMPER_STROKE] = 0.61;
     assert_string_equal(said(&h, output, BT_LAW_AT_LIMIT), "hook damper bottomed");
-    output[BT_HOOK_HOLD_STROKE] = 1.54;
+    output[BT_HOOK_DAMPER_STROKE] = 1.54;
     assert_string_equal(said(&h, output, BT_LAW_LEFT), "no gas volume in the hook damper");
 }
 
@@ -412,10 +414,10 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strut_forces_are_equal_and_opposite),
         cmocka_unit_test(strut_power_is_energy_and_damping),
-        cmocka_unit_test(eq9_hook_hold_is_equal_and_opposite_and_keeps_the_energy),
-        cmocka_unit_test(eq9_hook_hold_is_placed_as_drawn),
+        cmocka_unit_test(eq9_hook_damper_is_equal_and_opposite_and_keeps_the_energy),
+        cmocka_unit_test(eq9_hook_damper_is_placed_as_drawn),
         cmocka_unit_test(eq9_hook_hangs_in_balance_on_its_down_stop),
-        cmocka_unit_test(centring_is_equal_and_opposite_and_keeps_the_energy),
+        cmocka_unit_test(yaw_damper_is_equal_and_opposite_and_keeps_the_energy),
         cmocka_unit_test(wheel_off_the_ground_has_no_force),
         cmocka_unit_test(eq6_upright_wheel_carries_the_curve_at_its_deflection),
         cmocka_unit_test(wheel_does_not_mind_how_far_it_has_turned),

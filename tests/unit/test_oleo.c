@@ -187,7 +187,7 @@ static void eq3_force_is_the_gradient_of_the_energy(void** state) {
         const bt_oleo o = prepared(&p);
         BT_ASSERT_NEAR(bt_oleo_energy(&o, 0), 0, 0, 1e-9);
         for (double s = -0.02; s < 0.62; s += 0.01) {
-            const double kink[3] = {0, o.second_stroke, o.stroke_max};
+            const double kink[3] = {0, o.second_stroke, o.stops.stroke_max};
             bool near_kink = false;
             for (int i = 0; i < 3; ++i)
                 near_kink |= fabs(s - kink[i]) < 3e-3;

@@ -1,6 +1,7 @@
 #define _GNU_SOURCE
 #include "near.h"
 
+#include "elements/hook_damper_orifice.h"
 #include "landing/stable_step.h"
 #include "toy_study.h"
 
@@ -22,7 +23,8 @@ static void a_down_stop_stepped_just_below_its_stable_step_stays_bounded(void** 
     toy_study(&study, BT_DESIGN_SOBOL, 1);
     const bt_hook_params* hook = &study.model.aircraft.hook;
     const double lever = hook->damper_lever_m;
-    const double k = hook->damper.stop_stiffness_Npm * lever * lever, m = hook->inertia_kgm2;
+    const bt_hook_damper_orifice_params* damper = (const void*)hook->damper.params;
+    const double k = damper->stop_stiffness_Npm * lever * lever, m = hook->inertia_kgm2;
     const double stable = step_of(&study, "aircraft.hook.damper");
     for (int above = 0; above < 2; ++above) {
         const double h = stable * (above ? 1.01 : 0.99);

@@ -20,7 +20,7 @@ static bt_sweep sweep_of(const bt_model_params* model, const char* key, const ch
     size_t offset;
     int count;
     bt_sweep sweep;
-    if (bt_sweep_find(key, &field, &offset, &diag) != BT_OK ||
+    if (bt_sweep_find(model, key, &field, &offset, &diag) != BT_OK ||
         bt_sweep_values(field, key, list, values, &count, &diag) != BT_OK ||
         bt_sweep_run(model, key, values, count, threads, &sweep, &diag) != BT_OK)
         fail_msg("%s", kept.text);
@@ -122,11 +122,13 @@ static void rows_do_not_depend_on_threads(void** state) {
 static void assert_values_refused(const char* key, const char* list, const char* part) {
     messages kept = {""};
     bt_diag diag = {.sink = keep_message, .user = &kept};
+    bt_model_params model;
+    bt_group_set_defaults(&bt_model_group, &model);
     const bt_field* field;
     double values[BT_SWEEP_VALUES_MAX];
     size_t offset;
     int count;
-    bt_status status = bt_sweep_find(key, &field, &offset, &diag);
+    bt_status status = bt_sweep_find(&model, key, &field, &offset, &diag);
     if (status == BT_OK)
         status = bt_sweep_values(field, key, list, values, &count, &diag);
     assert_int_equal(status, BT_ERR_INPUT);

@@ -2,7 +2,7 @@
 /// hook's free body, and convergence with the step.
 #include "reference.h"
 
-#include "elements/hook_hold.h"
+#include "elements/hook_damper_element.h"
 #include "landing/view.h"
 #include "mechanics/vec.h"
 #include "tables.h"
@@ -208,8 +208,8 @@ static void damper_direction(const bt_model_params* model, const bt_landing_view
     const bt_hook_params* h = &model->aircraft.hook;
     const double* hook = view->rotation + 9 * BT_BODY_HOOK;
     double on_shank[3], on_fuselage[3], a[3], b[3];
-    bt_hook_hold_place(h->down_stop_rad, h->damper_lever_m, h->damper_angle_rad, h->damper_length_m,
-                       on_shank, on_fuselage);
+    bt_hook_damper_place(h->down_stop_rad, h->damper_lever_m, h->damper_angle_rad,
+                         h->damper_length_m, on_shank, on_fuselage);
     bt_rotate(view->rotation, on_fuselage, a);
     const double lever[3] = {-h->damper_lever_m, 0, 0};
     bt_rotate(hook, lever, b);

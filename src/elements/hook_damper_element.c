@@ -1,16 +1,16 @@
-#include "elements/hook_hold.h"
+#include "elements/hook_damper_element.h"
 
 #include "mechanics/vec.h"
 
 /// Stroke and its rate; the ends of the damper and its direction from a to b.
 static double stroke(const bt_element* element, const bt_motion* motion, double end_a[3],
                      double end_b[3], double direction[3], double* rate) {
-    const bt_hook_hold* h = element->data;
+    const bt_hook_damper_mount* m = element->data;
     double velocity_a[3], velocity_b[3];
-    bt_point_position(motion, element->body_a, h->point_a_m, end_a);
-    bt_point_position(motion, element->body_b, h->point_b_m, end_b);
-    bt_point_velocity(motion, element->body_a, h->point_a_m, velocity_a);
-    bt_point_velocity(motion, element->body_b, h->point_b_m, velocity_b);
+    bt_point_position(motion, element->body_a, m->point_a_m, end_a);
+    bt_point_position(motion, element->body_b, m->point_b_m, end_b);
+    bt_point_velocity(motion, element->body_a, m->point_a_m, velocity_a);
+    bt_point_velocity(motion, element->body_b, m->point_b_m, velocity_b);
     for (int i = 0; i < 3; ++i)
         direction[i] = end_b[i] - end_a[i];
     const double distance = bt_norm(direction);
@@ -19,52 +19,52 @@ static double stroke(const bt_element* element, const bt_motion* motion, double 
         direction[i] /= distance;
         *rate -= direction[i] * (velocity_b[i] - velocity_a[i]);
     }
-    return h->length_m - distance;
+    return m->length_m - distance;
 }
 
-static void hold_force(const bt_element* element, const bt_motion* motion, double* wrench,
-                       double* output) {
-    const bt_hook_hold* h = element->data;
+static void damper_force(const bt_element* element, const bt_motion* motion, double* wrench,
+                         double* output) {
+    const bt_hook_damper_mount* m = element->data;
     double end_a[3], end_b[3], direction[3], rate, on_a[3], on_b[3];
     const double stroke_m = stroke(element, motion, end_a, end_b, direction, &rate);
-    const double force = bt_hook_damper_force(&h->damper, stroke_m, rate);
+    const double force = bt_hook_damper_force(&m->damper, stroke_m, rate);
     for (int i = 0; i < 3; ++i) {
         on_b[i] = force * direction[i];
         on_a[i] = -on_b[i];
     }
     bt_wrench_add(motion, element->body_a, end_a, on_a, wrench);
     bt_wrench_add(motion, element->body_b, end_b, on_b, wrench);
-    output[BT_HOOK_HOLD_STROKE] = stroke_m;
-    output[BT_HOOK_HOLD_RATE] = rate;
-    output[BT_HOOK_HOLD_FORCE] = force;
+    output[BT_HOOK_DAMPER_STROKE] = stroke_m;
+    output[BT_HOOK_DAMPER_RATE] = rate;
+    output[BT_HOOK_DAMPER_FORCE] = force;
 }
 
-static double hold_energy(const bt_element* element, const bt_motion* motion) {
-    const bt_hook_hold* h = element->data;
+static double damper_energy(const bt_element* element, const bt_motion* motion) {
+    const bt_hook_damper_mount* m = element->data;
     double end_a[3], end_b[3], direction[3], rate;
-    return bt_hook_damper_energy(&h->damper,
+    return bt_hook_damper_energy(&m->damper,
                                  stroke(element, motion, end_a, end_b, direction, &rate));
 }
 
-static bt_law hold_law(const bt_element* element, const double* output, const char** what) {
-    const bt_hook_hold* h = element->data;
-    return bt_hook_damper_law(&h->damper, output[BT_HOOK_HOLD_STROKE], what);
+static bt_law damper_law(const bt_element* element, const double* output, const char** what) {
+    const bt_hook_damper_mount* m = element->data;
+    return bt_hook_damper_law(&m->damper, output[BT_HOOK_DAMPER_STROKE], what);
 }
 
 static const char* const output_names[] = {"stroke_m", "rate_mps", "force_N"};
 
-const bt_element_type bt_hook_hold_type = {
-    .name = "hook_hold",
-    .data_size = sizeof(bt_hook_hold),
-    .output_count = BT_HOOK_HOLD_OUTPUTS,
+const bt_element_type bt_hook_damper_element = {
+    .name = "hook_damper",
+    .data_size = sizeof(bt_hook_damper_mount),
+    .output_count = BT_HOOK_DAMPER_OUTPUTS,
     .output_names = output_names,
-    .force = hold_force,
-    .energy = hold_energy,
-    .law = hold_law,
+    .force = damper_force,
+    .energy = damper_energy,
+    .law = damper_law,
 };
 
-void bt_hook_hold_place(double down_stop_rad, double lever_m, double angle_rad, double length_m,
-                        double on_shank[3], double on_fuselage[3]) {
+void bt_hook_damper_place(double down_stop_rad, double lever_m, double angle_rad, double length_m,
+                          double on_shank[3], double on_fuselage[3]) {
     const double c = cos(down_stop_rad), s = sin(down_stop_rad);
     const double along[3] = {-c, 0, -s}, rising[3] = {-s, 0, c};
     for (int i = 0; i < 3; ++i) {
@@ -85,11 +85,11 @@ static double lowering_moment(const bt_hook_damper* damper, const double on_fuse
     return bt_hook_damper_force(damper, stroke_m, 0) * arm;
 }
 
-double bt_hook_hold_hanging_angle(const bt_hook_damper* damper, double down_stop_rad,
-                                  double lever_m, double angle_rad, double length_m,
-                                  double weight_moment_Nm, double pitch_rad) {
+double bt_hook_damper_hanging_angle(const bt_hook_damper* damper, double down_stop_rad,
+                                    double lever_m, double angle_rad, double length_m,
+                                    double weight_moment_Nm, double pitch_rad) {
     double on_shank[3], on_fuselage[3];
-    bt_hook_hold_place(down_stop_rad, lever_m, angle_rad, length_m, on_shank, on_fuselage);
+    bt_hook_damper_place(down_stop_rad, lever_m, angle_rad, length_m, on_shank, on_fuselage);
     double low = down_stop_rad, high = down_stop_rad + 0.3;
     for (int i = 0; i < 60; ++i) {
         const double shank = 0.5 * (low + high);

@@ -1,4 +1,4 @@
-#include "elements/centring.h"
+#include "elements/yaw_damper.h"
 
 #include "mechanics/vec.h"
 
@@ -19,7 +19,7 @@ static void world_spin(const bt_motion* motion, int body, double spin[3]) {
 
 /// Yaw angle and the second arm in the world.
 static double angle(const bt_element* element, const bt_motion* motion, double arm[3]) {
-    const bt_centring* c = element->data;
+    const bt_yaw_damper* c = element->data;
     double first[3], neutral[3], left[3];
     to_world(motion, element->body_a, c->axis_a, first);
     to_world(motion, element->body_b, c->axis_b, arm);
@@ -28,9 +28,9 @@ static double angle(const bt_element* element, const bt_motion* motion, double a
     return atan2(-bt_dot(first, left), bt_dot(first, neutral));
 }
 
-static void centring_force(const bt_element* element, const bt_motion* motion, double* wrench,
-                           double* output) {
-    const bt_centring* c = element->data;
+static void yaw_force(const bt_element* element, const bt_motion* motion, double* wrench,
+                      double* output) {
+    const bt_yaw_damper* c = element->data;
     double arm[3], spin_a[3], spin_b[3], on_a[3], on_b[3];
     const double psi = angle(element, motion, arm);
     world_spin(motion, element->body_a, spin_a);
@@ -43,13 +43,13 @@ static void centring_force(const bt_element* element, const bt_motion* motion, d
     }
     bt_wrench_add_torque(motion, element->body_a, on_a, wrench);
     bt_wrench_add_torque(motion, element->body_b, on_b, wrench);
-    output[BT_CENTRING_ANGLE] = psi;
-    output[BT_CENTRING_RATE] = rate;
-    output[BT_CENTRING_TORQUE] = torque;
+    output[BT_YAW_DAMPER_ANGLE] = psi;
+    output[BT_YAW_DAMPER_RATE] = rate;
+    output[BT_YAW_DAMPER_TORQUE] = torque;
 }
 
-static double centring_energy(const bt_element* element, const bt_motion* motion) {
-    const bt_centring* c = element->data;
+static double yaw_energy(const bt_element* element, const bt_motion* motion) {
+    const bt_yaw_damper* c = element->data;
     double arm[3];
     const double psi = angle(element, motion, arm);
     return 0.5 * c->stiffness_Nmprad * psi * psi;
@@ -57,11 +57,11 @@ static double centring_energy(const bt_element* element, const bt_motion* motion
 
 static const char* const output_names[] = {"angle_rad", "rate_radps", "torque_Nm"};
 
-const bt_element_type bt_centring_type = {
-    .name = "centring",
-    .data_size = sizeof(bt_centring),
-    .output_count = BT_CENTRING_OUTPUTS,
+const bt_element_type bt_yaw_damper_element = {
+    .name = "yaw_damper",
+    .data_size = sizeof(bt_yaw_damper),
+    .output_count = BT_YAW_DAMPER_OUTPUTS,
     .output_names = output_names,
-    .force = centring_force,
-    .energy = centring_energy,
+    .force = yaw_force,
+    .energy = yaw_energy,
 };
