@@ -75,7 +75,7 @@ static bt_status prepare(bt_design* d, bt_diag* diag) {
     d->count = d->study->campaign.samples;
     const uint64_t seed = (uint64_t)d->study->campaign.seed;
     for (int i = 0; i < d->axes.count; ++i)
-        d->shift[i] = bt_rng_bits(seed, 0, (uint32_t)(VARIABLE_SHIFT + d->axes.input[i])) >> 12;
+        d->shift[i] = bt_rng_bits(seed, 0, (uint32_t)(VARIABLE_SHIFT + i)) >> 12;
 
     if (d->study->campaign.design == BT_DESIGN_FULL_FACTORIAL) {
         choose_levels(d);
@@ -177,7 +177,7 @@ static uint64_t permuted(uint64_t seed, uint32_t variable, uint64_t place, uint6
 /// Position of a run along an axis, 0 .. 1 of its range (monte_carlo: the probability).
 static double fraction(bt_design* d, int64_t run, int axis, const int64_t* level) {
     const uint64_t seed = (uint64_t)d->study->campaign.seed;
-    const uint32_t variable = (uint32_t)d->axes.input[axis];
+    const uint32_t variable = (uint32_t)axis;
     switch (d->study->campaign.design) {
     case BT_DESIGN_SOBOL:
         return shifted(d->sobol_point[axis], d->shift[axis]);

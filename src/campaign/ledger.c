@@ -1,5 +1,7 @@
 #include "campaign/ledger_parts.h"
 
+#include "study/identity.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -27,24 +29,34 @@ static bt_status create(bt_ledger* ledger, const char* identity, bt_diag* diag) 
     return status;
 }
 
-/// Names the first line in which two identities differ.
+/// The first line of one text that the other has not, with its length; NULL when it has all.
+static const char* line_missing(const char* text, const char* other, size_t* length) {
+    for (; *text; text += *length + (text[*length] == '\n')) {
+        *length = strcspn(text, "\n");
+        bool found = false;
+        for (const char* line = other; *line && !found;) {
+            const size_t n = strcspn(line, "\n");
+            found = n == *length && strncmp(line, text, n) == 0;
+            line += n + (line[n] == '\n');
+        }
+        if (!found)
+            return text;
+    }
+    return NULL;
+}
+
+/// Names what the ledger's runs have and this study's would not, and the other way round.
 static bt_status say_other_study(const bt_ledger* ledger, const char* stored, const char* wanted,
                                  bt_diag* diag) {
-    while (*stored && *wanted) {
-        const size_t n = strcspn(stored, "\n"), m = strcspn(wanted, "\n");
-        if (n != m || strncmp(stored, wanted, n) != 0) {
-            bt_diag_add(diag, BT_ERROR, bt_ledger_place(ledger),
-                        "the ledger belongs to another study: it has \"%.*s\", this study has "
-                        "\"%.*s\" (SI). Use another directory with -o, or move the ledger away",
-                        (int)n, stored, (int)m, wanted);
-            return BT_ERR_IO;
-        }
-        stored += n + (stored[n] == '\n');
-        wanted += m + (wanted[m] == '\n');
-    }
+    static const char nothing[] = "nothing of the kind";
+    size_t has_length = 0, wants_length = 0;
+    const char* has = line_missing(stored, wanted, &has_length);
+    const char* wants = line_missing(wanted, stored, &wants_length);
     bt_diag_add(diag, BT_ERROR, bt_ledger_place(ledger),
-                "the ledger belongs to a study with more or fewer keys. Use another directory with "
-                "-o, or move the ledger away");
+                "the ledger belongs to another study: it has \"%.*s\", this study has \"%.*s\" "
+                "(SI). Use another directory with -o, or move the ledger away",
+                (int)(has ? has_length : strlen(nothing)), has ? has : nothing,
+                (int)(wants ? wants_length : strlen(nothing)), wants ? wants : nothing);
     return BT_ERR_IO;
 }
 

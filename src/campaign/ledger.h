@@ -83,8 +83,4 @@ char* bt_ledger_remark(const bt_ledger* ledger, const char* key);
 BT_CHECKED bt_status bt_ledger_set_remark(bt_ledger* ledger, const char* key, const char* text,
                                           bt_diag* diag);
 
-/// What a campaign's runs depend on, one "path = value" per line: how a difference between two
-/// studies is named. The caller frees it; NULL when memory is out.
-char* bt_study_identity(const bt_study* study);
-
 #endif

@@ -1,4 +1,4 @@
-/// The study as text and as a number.
+/// The study as text.
 #ifndef BT_STUDY_ECHO_H
 #define BT_STUDY_ECHO_H
 
@@ -8,8 +8,5 @@
 /// The whole study as one YAML text with every key: values used, in SI, and what was typed where
 /// that differs. `root` is the tree it was read from. NULL when out of memory; the caller frees.
 char* bt_study_echo(const bt_study* study, const bt_node* root);
-
-/// FNV-1a of what a campaign's runs depend on (see bt_study.hash).
-uint64_t bt_study_hash(const bt_study* study);
 
 #endif

@@ -1,6 +1,7 @@
 #include "study/study.h"
 
 #include "study/echo.h"
+#include "study/identity.h"
 #include "study/inputs.h"
 #include "study/reader.h"
 #include "study/rig_inputs.h"
@@ -345,9 +346,11 @@ static bt_status read_tree(reading* r, const char* const* sets, int set_count) {
 static bt_status finish(reading* r, bt_status status, bt_diag* diag) {
     bt_study* study = r->study;
     if (status == BT_OK) {
-        study->hash = bt_study_hash(study);
+        char* identity = bt_study_identity(study);
+        study->hash = identity ? bt_study_identity_hash(identity) : 0;
         study->text = bt_study_echo(study, r->root);
-        status = study->text ? BT_OK : BT_ERR_MEMORY;
+        status = identity && study->text ? BT_OK : BT_ERR_MEMORY;
+        free(identity);
     }
     bt_reader_flush(&r->reader, diag);
     if (status == BT_ERR_MEMORY)

@@ -47,6 +47,29 @@ static void a_point_depends_on_its_number_only(void** state) {
     }
 }
 
+/// A ledger goes on when a key that the design does not vary becomes random.
+static void an_input_that_is_no_axis_leaves_the_points_alone(void** state) {
+    (void)state;
+    for (int kind = BT_DESIGN_SOBOL; kind <= BT_DESIGN_MONTE_CARLO; ++kind) {
+        bt_study with, without;
+        toy_study(&with, kind, 50);
+        without = with;
+        without.input_count = 3;
+        with.inputs[3] = with.inputs[2];
+        with.inputs[2].bounded = with.inputs[2].random = false; // idle, before the third axis
+        with.inputs[3].bounded = with.inputs[3].random = true;
+        bt_design *a = made(&with), *b = made(&without);
+        for (int run = 0; run < 50; ++run) {
+            double x[BT_INPUT_MAX], y[BT_INPUT_MAX];
+            bt_design_point(a, run, x);
+            bt_design_point(b, run, y);
+            assert_memory_equal(x, y, 3 * sizeof *x);
+        }
+        bt_design_destroy(a);
+        bt_design_destroy(b);
+    }
+}
+
 static int stratum_of(double x, const bt_input* input, int count) {
     return (int)((x - input->lower) / (input->upper - input->lower) * count);
 }
@@ -234,6 +257,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_design_stays_in_the_box),
         cmocka_unit_test(a_point_depends_on_its_number_only),
+        cmocka_unit_test(an_input_that_is_no_axis_leaves_the_points_alone),
         cmocka_unit_test(latin_hypercube_has_one_point_in_every_stratum),
         cmocka_unit_test(latin_hypercube_axes_are_shuffled_apart),
         cmocka_unit_test(sobol_has_one_point_in_every_stratum),

@@ -298,9 +298,33 @@ static void what_no_run_depends_on_may_change(void** state) {
     f->study.campaign.max_failed = 0.5;
     f->study.campaign.samples = 200; /* a Sobol' sequence may grow */
     f->study.inputs[0].distribution.mean = 4.5;
+    f->study.model.landing.pitch_rad = 0.01; /* an axis: no run has it */
+    f->study.inputs[1].levels = 7;           /* of a factorial */
     assert_int_equal(open_status(f, BT_LEDGER_CREATE), BT_OK);
     f->study.campaign.seed = 5;
     assert_int_equal(open_status(f, BT_LEDGER_CREATE), BT_ERR_IO);
+}
+
+static void the_points_of_a_factorial_do_not_depend_on_the_seed(void** state) {
+    fixture* f = *state;
+    toy_study(&f->study, BT_DESIGN_FULL_FACTORIAL, 100);
+    bt_ledger_close(opened(f));
+    f->study.campaign.seed = 12;
+    assert_int_equal(open_status(f, BT_LEDGER_CREATE), BT_OK);
+    f->study.inputs[1].levels = 7;
+    assert_int_equal(open_status(f, BT_LEDGER_CREATE), BT_ERR_IO);
+    assert_non_null(strstr(f->messages.last, "levels 0"));
+    assert_non_null(strstr(f->messages.last, "levels 7"));
+}
+
+/// The lines of one key only: what both studies have is not named.
+static void an_axis_more_is_named(void** state) {
+    fixture* f = *state;
+    bt_ledger_close(opened(f));
+    toy_input(&f->study, "landing.roll", -0.1, 0.1);
+    assert_int_equal(open_status(f, BT_LEDGER_CREATE), BT_ERR_IO);
+    assert_non_null(strstr(f->messages.last, "it has \"landing.roll = 0\""));
+    assert_non_null(strstr(f->messages.last, "has \"campaign.bounds.landing.roll = -0.1 0.1\""));
 }
 
 static void the_points_of_a_latin_hypercube_depend_on_their_number(void** state) {
@@ -692,6 +716,8 @@ int main(void) {
         TEST(a_ledger_of_another_format_is_refused),
         TEST(a_ledger_of_another_study_names_the_key),
         TEST(what_no_run_depends_on_may_change),
+        TEST(the_points_of_a_factorial_do_not_depend_on_the_seed),
+        TEST(an_axis_more_is_named),
         TEST(the_points_of_a_latin_hypercube_depend_on_their_number),
         TEST(a_directory_that_cannot_be_made_is_said),
         TEST(a_ledger_below_a_file_cannot_be_opened),

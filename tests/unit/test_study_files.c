@@ -328,6 +328,7 @@ static void the_hash_follows_what_runs_depend_on(void** state) {
         "surrogate.folds=3",
         "reliability.seed=9",
         "landing.pitch=3.0 deg",
+        "landing.pitch=2 deg", // an axis: no run has it
         "aircraft.mass=22 t",
         "landing.roll=0 deg",
         "uncertainty.landing.pitch.sd=1 deg", // the box of the design is what is run
