@@ -213,14 +213,17 @@ static bool find_metric(reading* r, const bt_node* node, const char* path, bt_ta
     char names[BT_CASE_METRIC_MAX * BT_CASE_KINDS][64], help[160];
     int count = 0;
     for (int k = BT_CASE_LANDING; k < BT_CASE_KINDS; ++k) {
-        const bt_metric_name* metrics = bt_simulated_case_metrics((bt_simulated_case_kind)k);
-        for (int i = 0; metrics[i].name; ++i) {
+        const int room = bt_simulated_case_metric_count((bt_simulated_case_kind)k);
+        for (int i = 0; i < room; ++i) {
+            bt_metric_name metric;
+            if (!bt_simulated_case_metric((bt_simulated_case_kind)k, i, &metric))
+                continue;
             char* name = names[count++];
             snprintf(name, sizeof names[0], "%s%s",
-                     bt_simulated_case_prefix((bt_simulated_case_kind)k), metrics[i].name);
+                     bt_simulated_case_prefix((bt_simulated_case_kind)k), metric.name);
             if (strcmp(name, node->text) == 0) {
                 t->metric = i;
-                t->token = metrics[i].token;
+                t->token = metric.token;
                 *kind = (bt_simulated_case_kind)k;
                 return true;
             }
@@ -228,9 +231,11 @@ static bool find_metric(reading* r, const bt_node* node, const char* path, bt_ta
         }
     }
     bt_reader_suggest(node->text, best, distance, help, sizeof help);
-    bt_reader_error(&r->reader, node->where, "%s.metric: \"%.60s\" is no metric%s", path,
-                    node->text,
-                    *help ? help : "; as in bounce_height, impact_force or nose_drop.stroke_max");
+    if (strcmp(node->text, "impact_force") == 0) // its name up to 0.1
+        snprintf(help, sizeof help, "; did you mean \"bounce_impact_force\"?");
+    bt_reader_error(
+        &r->reader, node->where, "%s.metric: \"%.60s\" is no metric%s", path, node->text,
+        *help ? help : "; as in bounce_height, throat_force_peak or nose_drop.stroke_max");
     return false;
 }
 

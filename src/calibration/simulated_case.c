@@ -8,23 +8,6 @@
 
 // --- metrics ----------------------------------------------------------------------------------
 
-static const bt_metric_name landing_metrics[] = {
-    {"bounce_height", "m"},
-    {"bounce_distance", "m"},
-    {"impact_force", "N"},
-    {"second_bounce_height", "m"},
-    {"hook_deck_force_peak", "N"},
-    {"strut_stroke_max_nose", "m"},
-    {"strut_stroke_max_left", "m"},
-    {"strut_stroke_max_right", "m"},
-    {"tyre_force_max_nose", "N"},
-    {"tyre_force_max_left", "N"},
-    {"tyre_force_max_right", "N"},
-    {"cable_tension_max", "N"},
-    {"throat_force_peak", "N"},
-    {"margin", "m"},
-    {NULL, NULL},
-};
 static const bt_metric_name drop_metrics[] = {
     {"stroke_max", "m"},     {"sinkage_max", "m"},     {"tyre_compression_max", "m"},
     {"tyre_force_max", "N"}, {"strut_force_max", "N"}, {"drag_force_max", "N"},
@@ -40,11 +23,36 @@ static const bt_metric_name rebound_metrics[] = {
     {"damper_stroke_max", "m"}, {"restitution", "1"},     {NULL, NULL},
 };
 
-const bt_metric_name* bt_simulated_case_metrics(bt_simulated_case_kind kind) {
-    static const bt_metric_name* const metrics[BT_CASE_KINDS] = {landing_metrics, drop_metrics,
-                                                                 drop_metrics,    rebound_metrics,
-                                                                 static_metrics,  static_metrics};
+static const bt_metric_name* rig_metrics(bt_simulated_case_kind kind) {
+    static const bt_metric_name* const metrics[BT_CASE_KINDS] = {
+        NULL, drop_metrics, drop_metrics, rebound_metrics, static_metrics, static_metrics};
     return metrics[kind];
+}
+
+/// A number of a landing, but for those that tell nothing of the aircraft.
+static bool is_metric(const bt_result_column* column) {
+    return column->kind == BT_RESULT_REAL &&
+           column->offset != offsetof(bt_landing_result, failed_time_s) &&
+           column->offset != offsetof(bt_landing_result, wall_s);
+}
+
+int bt_simulated_case_metric_count(bt_simulated_case_kind kind) {
+    int count = 0;
+    if (kind == BT_CASE_LANDING)
+        return bt_result_column_count;
+    while (rig_metrics(kind)[count].name)
+        ++count;
+    return count;
+}
+
+bool bt_simulated_case_metric(bt_simulated_case_kind kind, int index, bt_metric_name* metric) {
+    if (kind != BT_CASE_LANDING) {
+        *metric = rig_metrics(kind)[index];
+        return true;
+    }
+    const bt_result_column* column = &bt_result_columns[index];
+    *metric = (bt_metric_name){column->quantity, column->unit};
+    return is_metric(column);
 }
 
 const char* bt_simulated_case_prefix(bt_simulated_case_kind kind) {
@@ -60,27 +68,10 @@ bt_parameter_set_part bt_simulated_case_part(bt_simulated_case_kind kind) {
     return parts[kind];
 }
 
-/// In the order of landing_metrics.
-static void landing_values(const bt_landing_result* r, double* metric) {
-    const bool first = r->bounce_count > 0 && r->bounces[0].complete;
-    const bool second = r->bounce_count > 1;
-    const double values[] = {
-        first ? r->bounces[0].height_m : NAN,
-        first ? r->bounces[0].distance_m : NAN,
-        first ? r->bounces[0].impact_force_N : NAN,
-        second ? r->bounces[1].height_m : NAN,
-        r->hook_deck_force_peak_N,
-        r->strut_stroke_max_m[BT_LEG_NOSE],
-        r->strut_stroke_max_m[BT_LEG_LEFT],
-        r->strut_stroke_max_m[BT_LEG_RIGHT],
-        r->tyre_force_max_N[BT_LEG_NOSE],
-        r->tyre_force_max_N[BT_LEG_LEFT],
-        r->tyre_force_max_N[BT_LEG_RIGHT],
-        r->cable_tension_max_N,
-        r->throat_force_peak_N,
-        r->margin_m,
-    };
-    memcpy(metric, values, sizeof values);
+static void landing_values(const bt_landing_result* result, double* metric) {
+    for (int i = 0; i < bt_result_column_count; ++i)
+        if (is_metric(&bt_result_columns[i]))
+            metric[i] = bt_result_real(&bt_result_columns[i], result);
 }
 
 /// A rig names its metrics "stroke_max_m".
@@ -98,21 +89,10 @@ static void rig_values(const bt_metric_name* names, const bt_rig_result* r, doub
 
 // --- histories --------------------------------------------------------------------------------
 
-static const char* const landing_columns[] = {
-    "time_s",
-    "travelled_m", // of the hook, from its first contact with the deck on
-    "hook_height_m",
-    "hook_angle_rad",
-    "hook_deck_force_N",
-    "hook_damper_force_N",
-    "nose_stroke_m",
-    "left_stroke_m",
-    "right_stroke_m",
-    "nose_tyre_force_N",
-    "left_tyre_force_N",
-    "right_tyre_force_N",
-};
-enum { LANDING_COLUMN_COUNT = sizeof landing_columns / sizeof landing_columns[0] };
+/// Columns of a landing's history: those of the view, and the way of the hook from its first
+/// contact with the deck on.
+static const char travelled[] = "travelled_m";
+enum { LANDING_COLUMN_MAX = 96 };
 
 /// Follows measured curves through one run by interpolation between its samples.
 typedef struct tracker {
@@ -157,20 +137,10 @@ static void track_landing(void* user, const bt_landing_view* view) {
         t->touched = true;
         t->touch_m = view->hook_shoe_m[0];
     }
-    const double values[LANDING_COLUMN_COUNT] = {
-        view->time_s,
-        t->touched ? view->hook_shoe_m[0] - t->touch_m : NAN,
-        view->hook_height_m,
-        view->hook_angle_rad,
-        view->hook_deck_force_N,
-        view->hook_damper_force_N,
-        view->stroke_m[BT_LEG_NOSE],
-        view->stroke_m[BT_LEG_LEFT],
-        view->stroke_m[BT_LEG_RIGHT],
-        view->tyre_force_N[BT_LEG_NOSE],
-        view->tyre_force_N[BT_LEG_LEFT],
-        view->tyre_force_N[BT_LEG_RIGHT],
-    };
+    double values[LANDING_COLUMN_MAX];
+    for (int i = 0; i < bt_view_column_count; ++i)
+        values[i] = bt_view_real(&bt_view_columns[i], view);
+    values[bt_view_column_count] = t->touched ? view->hook_shoe_m[0] - t->touch_m : NAN;
     track(t, values);
 }
 
@@ -212,16 +182,24 @@ bt_status bt_simulated_case_run(bt_lander* lander, bt_simulated_case_kind kind,
     const bt_status status = bt_rig_run(rig_of(kind), &specimen->model.aircraft, &specimen->rigs,
                                         &result, followed_count ? track_rig : NULL, &t, diag);
     if (status == BT_OK)
-        rig_values(bt_simulated_case_metrics(kind), &result, metric);
+        rig_values(rig_metrics(kind), &result, metric);
     return status == BT_ERR_NUMERIC ? BT_OK : status;
 }
 
 // --- columns of a curve -----------------------------------------------------------------------
 
+static bt_status bind_landing(bt_measured* measured, bt_diag* diag) {
+    const char* names[LANDING_COLUMN_MAX];
+    for (int i = 0; i < bt_view_column_count; ++i)
+        names[i] = bt_view_columns[i].name;
+    names[bt_view_column_count] = travelled;
+    return bt_measured_bind(measured, names, bt_view_column_count + 1, diag);
+}
+
 bt_status bt_simulated_case_bind(bt_simulated_case_kind kind, bt_measured* measured,
                                  bt_diag* diag) {
     if (kind == BT_CASE_LANDING)
-        return bt_measured_bind(measured, landing_columns, LANDING_COLUMN_COUNT, diag);
+        return bind_landing(measured, diag);
     const char* names[1 + BT_RIG_CHANNEL_MAX] = {"time_s"};
     int count;
     const char* const* channels = bt_rig_channels(rig_of(kind), &count);

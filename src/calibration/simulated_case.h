@@ -5,17 +5,20 @@
 
 #include "calibration/calibration.h"
 
-enum { BT_CASE_METRIC_MAX = 24 };
+enum { BT_CASE_METRIC_MAX = 64 };
 
 typedef struct bt_metric_name {
     const char* name;  ///< "bounce_height"
     const char* token; ///< unit of its value
 } bt_metric_name;
 
-/// The metrics of a kind of experiment; ends with a NULL name. A landing: the first bounce
-/// (bounce_height, bounce_distance, impact_force), second_bounce_height, peak loads, strokes, and
-/// what the cable did (margin, throat_force_peak, cable_tension_max).
-const bt_metric_name* bt_simulated_case_metrics(bt_simulated_case_kind kind);
+/// How many metrics a kind of experiment has room for; at most BT_CASE_METRIC_MAX.
+int bt_simulated_case_metric_count(bt_simulated_case_kind kind);
+
+/// One of them; false when this place is no metric. Those of a landing are the numbers of the table
+/// of results (landing/result.h) by their quantity ("bounce_height"), those of the first bounce
+/// with `bounce_`, of the second with `second_bounce_` before them.
+bool bt_simulated_case_metric(bt_simulated_case_kind kind, int index, bt_metric_name* metric);
 
 /// "", "nose_drop.", "main_drop.", "hook_rebound.", "nose_static.", "main_static.": what stands
 /// before a metric's name.

@@ -44,7 +44,8 @@ const bt_verb bt_verb_land = {
             "wire, how, by which margin, how the hook bounced, and the peak loads. Loads of the "
             "hook on the deck are not calibrated; loads after a catch hold for 50 ms.\n\n"
             "  bolter land study.yaml --set landing.distance='7 m'\n"
-            "  bolter land study.yaml -o landing.h5     time histories (HDF5, with units)\n\n"
+            "  bolter land study.yaml -o landing.h5     time histories (HDF5, with units; .csv: "
+            "CSV)\n\n"
             "The exit code is 4 when the computation diverged.",
     .least_words = 1,
     .most_words = 1,

@@ -18,8 +18,44 @@ enum {
 };
 extern const char* const bt_body_names[BT_BODY_COUNT];
 
+/// What a history keeps of every step, one row each: struct member, HDF5 dataset, CSV column,
+/// column of a calibration's curve. V(KIND, group, name, unit, text):
+///   KIND   REAL    double name_unit          dataset group/name_unit (a name that begins with its
+///                                            group does not say it twice: hook/angle_rad)
+///          VECTOR  double name_unit[3]       columns name_x_unit, _y_, _z_: x forward, y to port
+///          LEGS    double name_unit[BT_LEG_COUNT]    columns nose_name_unit, left_, right_
+///          ZONES   double name_unit[BT_ZONE_COUNT]   columns name_shoe_unit, _point_, ...
+// clang-format off
+#define BT_VIEW_FIELDS(V) \
+    V(REAL, , time, s, "time since the first contact of any part with the deck") \
+    V(REAL, hook, hook_angle, rad, "shank below the fuselage axis") \
+    V(REAL, hook, hook_height, m, "lowest point of the head above the deck") \
+    V(VECTOR, hook, hook_shoe, m, "centre of the shoe arc; the cable rests at x = 0") \
+    V(VECTOR, hook, hook_lip, m, "centre of the lip") \
+    V(REAL, hook, hook_deck_force, N, "normal force of the deck on the head") \
+    V(REAL, hook, hook_damper_force, N, "force of the longitudinal damper") \
+    V(VECTOR, hook, hook_pivot_force, N, "force of the fuselage on the hook, world") \
+    V(ZONES, hook, zone_force, N, "normal force of the cable on a zone of the head") \
+    V(LEGS, legs, stroke, m, "strut stroke") \
+    V(LEGS, legs, strut_force, N, "strut force") \
+    V(LEGS, legs, strut_side_force, N, "force across the strut, of the fuselage on the piston") \
+    V(LEGS, legs, tyre_deflection, m, "tyre deflection") \
+    V(LEGS, legs, tyre_force, N, "tyre force from deck and cable") \
+    V(LEGS, legs, tyre_cable_force, N, "part of the tyre force that lies on the cable") \
+    V(LEGS, legs, wheel_spin, radps, "wheel speed") \
+    V(REAL, airframe, energy, J, "kinetic, gravity and spring energy of the airframe") \
+    V(REAL, contact, cable_work, J, "work of wheels and hook on the cable, so far") \
+    V(REAL, contact, friction, J, "work of friction between them, so far: it never rises")
+// clang-format on
+
+#define BT_VIEW_MEMBER_REAL(name, unit) double name##_##unit;
+#define BT_VIEW_MEMBER_VECTOR(name, unit) double name##_##unit[3];
+#define BT_VIEW_MEMBER_LEGS(name, unit) double name##_##unit[BT_LEG_COUNT];
+#define BT_VIEW_MEMBER_ZONES(name, unit) double name##_##unit[BT_ZONE_COUNT];
+#define BT_VIEW_MEMBER(KIND, group, name, unit, text) BT_VIEW_MEMBER_##KIND(name, unit)
+
 typedef struct bt_landing_view {
-    double time_s; ///< 0 at the first contact of any part with the deck
+    BT_VIEW_FIELDS(BT_VIEW_MEMBER)
     int64_t step;
     bool last; ///< the final call of the run
 
@@ -27,34 +63,32 @@ typedef struct bt_landing_view {
     const double* v;        ///< [6 * BT_BODY_COUNT] m/s in the world, rad/s in the body
     const double* rotation; ///< [9 * BT_BODY_COUNT] row-major, body to world
 
-    double hook_angle_rad;     ///< shank below the fuselage axis
-    double hook_height_m;      ///< lowest point of the head above the deck
-    double hook_shoe_m[3];     ///< centre of the shoe arc
-    double hook_lip_m[3];      ///< centre of the lip
-    double hook_deck_force_N;  ///< normal
-    double hook_damper_force_N;
-    double stroke_m[BT_LEG_COUNT], strut_force_N[BT_LEG_COUNT];
-    double tyre_deflection_m[BT_LEG_COUNT], tyre_force_N[BT_LEG_COUNT]; ///< deck and cable
-    double tyre_cable_force_N[BT_LEG_COUNT];                            ///< of it, on the cable
-    double wheel_spin_radps[BT_LEG_COUNT];
-    double hook_pivot_force_N[3];            ///< of the fuselage on the hook, world
-    double strut_side_force_N[BT_LEG_COUNT]; ///< across the strut, of the fuselage on the piston
-    double zone_force_N[BT_ZONE_COUNT];      ///< normal force of the cable on the zones of the head
-    double energy_J;                         ///< of the airframe: kinetic, gravity, springs
-
     // what passes between the cable and wheels and hook
     const double* cable_wrench; ///< [6 * BT_BODY_COUNT] on the bodies, mean of the last step: N in
                                 ///< the world, N m in the body
-    double cable_work_J;        ///< on the cable, so far
-    double friction_J;          ///< work of friction on both, so far: it never rises
     double friction_most_J;     ///< the largest of one cable step, so far; -INFINITY before any
 
     bool cable_awake; ///< false while it still lies in its equilibrium
     int cable_count;
     const double *cable_x, *cable_y, *cable_z; ///< [cable_count] centres of the segments
     const double* cable_tension_N;             ///< [cable_count - 1] between neighbours
-    const void* run; ///< for bt_landing_cable_energy
+    const void* run;                           ///< for bt_landing_cable_energy
 } bt_landing_view;
+
+/// One scalar of the table.
+typedef struct bt_view_column {
+    const char* name;     ///< "nose_stroke_m"
+    const char* quantity; ///< "nose_stroke"
+    const char* unit;     ///< token
+    const char* text;
+    size_t offset; ///< of a double in bt_landing_view
+} bt_view_column;
+
+extern const bt_view_column bt_view_columns[];
+extern const int bt_view_column_count;
+static inline double bt_view_real(const bt_view_column* column, const bt_landing_view* view) {
+    return *(const double*)((const char*)view + column->offset);
+}
 
 /// Energy of the cable, its supports and deck contact, J: kinetic, elastic and gravity.
 double bt_landing_cable_energy(const bt_landing_view* view);

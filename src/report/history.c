@@ -1,6 +1,8 @@
 #include "report/history.h"
 
 #include "base/directory.h"
+#include "base/text.h"
+#include "base/units.h"
 #include "report/hdf5_text.h"
 
 #include <errno.h>
@@ -11,41 +13,26 @@
 
 /// What is kept of every view: one row here, one dataset in the file.
 typedef struct channel {
-    const char* name; ///< in the file
-    const char* unit;
-    const char* meaning;
+    const char *group, *name; ///< "hook", "hook_angle_rad"
+    const char* unit;         ///< token
+    const char *parts, *text;
     size_t offset; ///< in bt_landing_view
     int count;     ///< doubles
 } channel;
 
-#define AT(member) offsetof(bt_landing_view, member)
-static const channel channels[] = {
-    {"time_s", "s", "time since the first contact with the deck", AT(time_s), 1},
-    {"hook/angle_rad", "rad", "shank below the fuselage axis", AT(hook_angle_rad), 1},
-    {"hook/height_m", "m", "lowest point of the head above the deck", AT(hook_height_m), 1},
-    {"hook/shoe_m", "m", "centre of the shoe arc: x, y, z", AT(hook_shoe_m), 3},
-    {"hook/lip_m", "m", "centre of the lip: x, y, z", AT(hook_lip_m), 3},
-    {"hook/deck_force_N", "N", "normal force of the deck on the head", AT(hook_deck_force_N), 1},
-    {"hook/damper_force_N", "N", "force of the longitudinal damper", AT(hook_damper_force_N), 1},
-    {"hook/pivot_force_N", "N", "force of the fuselage on the hook: x, y, z",
-     AT(hook_pivot_force_N), 3},
-    {"hook/zone_force_N", "N", "normal force of the cable on shoe, point, throat, arm",
-     AT(zone_force_N), BT_ZONE_COUNT},
-    {"legs/stroke_m", "m", "strut stroke: nose, left, right", AT(stroke_m), BT_LEG_COUNT},
-    {"legs/strut_force_N", "N", "strut force: nose, left, right", AT(strut_force_N), BT_LEG_COUNT},
-    {"legs/side_force_N", "N", "force across the strut: nose, left, right", AT(strut_side_force_N),
-     BT_LEG_COUNT},
-    {"legs/tyre_deflection_m", "m", "tyre deflection: nose, left, right", AT(tyre_deflection_m),
-     BT_LEG_COUNT},
-    {"legs/tyre_force_N", "N", "tyre force from deck and cable: nose, left, right",
-     AT(tyre_force_N), BT_LEG_COUNT},
-    {"legs/tyre_cable_force_N", "N", "part of the tyre force that lies on the cable",
-     AT(tyre_cable_force_N), BT_LEG_COUNT},
-    {"legs/wheel_spin_radps", "rad/s", "wheel speed: nose, left, right", AT(wheel_spin_radps),
-     BT_LEG_COUNT},
-    {"airframe/energy_J", "J", "kinetic, gravity and spring energy of the airframe", AT(energy_J),
-     1},
-};
+#define PARTS_REAL ""
+#define PARTS_VECTOR ": x, y, z"
+#define PARTS_LEGS ": nose, left, right"
+#define PARTS_ZONES ": shoe, point, throat, arm"
+#define CHANNEL(KIND, group, name, unit, text)                                                     \
+    {#group,                                                                                       \
+     #name "_" #unit,                                                                              \
+     #unit,                                                                                        \
+     PARTS_##KIND,                                                                                 \
+     text,                                                                                         \
+     offsetof(bt_landing_view, name##_##unit),                                                     \
+     sizeof((bt_landing_view*)0)->name##_##unit / sizeof(double)},
+static const channel channels[] = {BT_VIEW_FIELDS(CHANNEL)};
 enum { CHANNEL_COUNT = sizeof channels / sizeof channels[0] };
 enum { Q_SIZE = 7 * BT_BODY_COUNT, V_SIZE = 6 * BT_BODY_COUNT };
 static const double cable_interval_s = 1e-3;
@@ -158,6 +145,18 @@ static bool write_dataset(hid_t file, hid_t links, const dataset* d) {
     return good;
 }
 
+/// "hook/angle_rad" of the group hook and the name hook_angle_rad.
+static bool write_channel(const channel* c, const rows* values, hid_t file, hid_t links) {
+    char name[96], meaning[160];
+    const size_t length = strlen(c->group);
+    const bool said = strncmp(c->name, c->group, length) == 0 && c->name[length] == '_';
+    snprintf(name, sizeof name, "%s%s%s", c->group, length ? "/" : "",
+             c->name + (length && said ? length + 1 : 0));
+    snprintf(meaning, sizeof meaning, "%s%s", c->text, c->parts);
+    const dataset d = {values, 0, (size_t)c->count, name, bt_unit_text(c->unit), meaning};
+    return write_dataset(file, links, &d);
+}
+
 static bool write_bodies(const bt_history* h, hid_t file, hid_t links) {
     static const struct {
         const char *name, *unit, *meaning;
@@ -209,23 +208,69 @@ static bool write_all(const bt_history* h, hid_t file, const bt_study* study,
            bt_hdf5_attribute(file, "mode", bt_mode_name(result->mode)) &&
            bt_hdf5_attribute(file, "title", study->title) &&
            bt_hdf5_text(file, "study", study->text);
-    for (int i = 0; i < CHANNEL_COUNT; ++i) {
-        const dataset d = {
-            &h->channel[i],     0, (size_t)channels[i].count, channels[i].name, channels[i].unit,
-            channels[i].meaning};
-        good = good && write_dataset(file, links, &d);
-    }
+    for (int i = 0; i < CHANNEL_COUNT; ++i)
+        good = good && write_channel(&channels[i], &h->channel[i], file, links);
     good = good && write_bodies(h, file, links) && write_cable(h, file, links);
     if (links >= 0)
         H5Pclose(links);
     return good;
 }
 
+// --- CSV ------------------------------------------------------------------------------------
+
+static const char csv_mark[] = "# Histories of one landing";
+
+/// The columns of the view, which stand in the order of the channels.
+static void write_csv_rows(const bt_history* h, FILE* out) {
+    for (int i = 0; i < bt_view_column_count; ++i)
+        fprintf(out, "%s%s [%s]", i ? "," : "", bt_view_columns[i].quantity,
+                bt_unit_text(bt_view_columns[i].unit));
+    fputc('\n', out);
+    for (size_t row = 0; row < h->channel[0].count; ++row)
+        for (int i = 0; i < CHANNEL_COUNT; ++i)
+            for (int k = 0; k < channels[i].count; ++k) {
+                const rows* r = &h->channel[i];
+                char text[40];
+                bt_text_print_number(r->data[row * r->width + (size_t)k], text, sizeof text);
+                const bool last = i == CHANNEL_COUNT - 1 && k == channels[i].count - 1;
+                fprintf(out, "%s%c", text, last ? '\n' : ',');
+            }
+}
+
+static bt_status write_csv(const bt_history* h, const char* path, const bt_landing_result* result,
+                           bt_diag* diag) {
+    char* text = NULL;
+    size_t size = 0;
+    FILE* out = open_memstream(&text, &size);
+    if (!out)
+        return BT_ERR_MEMORY;
+    fprintf(out, "%s: %s, %s\n", csv_mark, bt_outcome_name(result->outcome),
+            bt_mode_name(result->mode));
+    write_csv_rows(h, out);
+    const bool failed = ferror(out) != 0;
+    bt_status status = fclose(out) != 0 || failed ? BT_ERR_MEMORY : BT_OK;
+    if (status == BT_OK)
+        status = bt_file_replace(path, text, size, sizeof csv_mark - 1, diag);
+    free(text);
+    return status;
+}
+
+// --- writing --------------------------------------------------------------------------------
+
+static bool is_csv(const char* path) {
+    const size_t length = strlen(path);
+    return length >= 4 && strcmp(path + length - 4, ".csv") == 0;
+}
+
 bt_status bt_history_write(const bt_history* history, const char* path, const bt_study* study,
                            const bt_landing_result* result, bt_diag* diag) {
     if (history->out_of_memory)
         return BT_ERR_MEMORY;
-    if (bt_study_reads(study, path) || !bt_hdf5_may_go(path))
+    if (bt_study_reads(study, path))
+        return bt_file_refuse(path, diag);
+    if (is_csv(path))
+        return write_csv(history, path, result, diag);
+    if (!bt_hdf5_may_go(path))
         return bt_file_refuse(path, diag);
     char temporary[4352];
     const int length = snprintf(temporary, sizeof temporary, "%s.%ld.new", path, (long)getpid());

@@ -2,6 +2,7 @@
 #define _GNU_SOURCE
 #include "near.h"
 
+#include "base/units.h"
 #include "report/history.h"
 #include "toy_study.h"
 
@@ -9,6 +10,7 @@
 
 typedef struct fixture {
     char* directory;
+    char csv[4096];
     bt_study study;
     bt_landing_result result;
     hid_t file;
@@ -26,7 +28,9 @@ static int setup(void** state) {
         bt_lander_create(&lander) != BT_OK || bt_history_create(&history) != BT_OK ||
         bt_lander_run(lander, &f->study.model, &f->result, bt_history_observe, history, NULL) !=
             BT_OK ||
-        bt_history_write(history, path, &f->study, &f->result, NULL) != BT_OK)
+        bt_history_write(history, path, &f->study, &f->result, NULL) != BT_OK ||
+        bt_history_write(history, toy_path(f->csv, f->directory, "landing.csv"), &f->study,
+                         &f->result, NULL) != BT_OK)
         return -1;
     bt_history_destroy(history);
     bt_lander_destroy(lander);
@@ -145,9 +149,85 @@ static void the_cable_spans_the_deck_at_every_stored_time(void** state) {
     assert_unit(f, "cable/tension_N", "N");
 }
 
+static void every_row_of_the_view_has_a_name_a_unit_and_a_meaning(void** state) {
+    (void)state;
+    for (int i = 0; i < bt_view_column_count; ++i) {
+        const bt_view_column* c = &bt_view_columns[i];
+        char whole[96];
+        snprintf(whole, sizeof whole, "%s_%s", c->quantity, c->unit);
+        assert_string_equal(c->name, whole);
+        assert_non_null(bt_unit_text(c->unit));
+        assert_true(strlen(c->text) > 10);
+        for (int k = 0; k < i; ++k)
+            assert_string_not_equal(c->name, bt_view_columns[k].name);
+    }
+}
+
+/// Numbers of one line.
+static int read_line(FILE* file, double* value) {
+    char line[4096];
+    int count = 0;
+    if (!fgets(line, sizeof line, file))
+        return 0;
+    for (char* word = strtok(line, ","); word && count < 96; word = strtok(NULL, ","))
+        value[count++] = strtod(word, NULL);
+    return count;
+}
+
+static int column_of(const char* name) {
+    for (int i = 0; i < bt_view_column_count; ++i)
+        if (strcmp(bt_view_columns[i].name, name) == 0)
+            return i;
+    fail_msg("no column %s", name);
+    return -1;
+}
+
+/// CSV and HDF5 hold the same numbers to the bit.
+static void the_csv_holds_what_the_hdf5_file_holds(void** state) {
+    fixture* f = *state;
+    char line[4096];
+    hsize_t shape[2], legs[2];
+    double *time = dataset(f, "time_s", shape), *force = dataset(f, "legs/tyre_force_N", legs);
+    const int t = column_of("time_s"), left = column_of("left_tyre_force_N");
+    FILE* file = fopen(f->csv, "r");
+    assert_non_null(fgets(line, sizeof line, file));
+    assert_int_equal(strncmp(line, "# Histories of one landing: ", 28), 0);
+    assert_non_null(fgets(line, sizeof line, file));
+    assert_int_equal(strncmp(line, "time [s],hook_angle [rad],", 26), 0);
+    for (hsize_t row = 0; row < shape[0]; ++row) {
+        double value[96];
+        assert_int_equal(read_line(file, value), bt_view_column_count);
+        assert_true(value[t] == time[row]);
+        assert_true(value[left] == force[3 * row + 1]);
+    }
+    assert_null(fgets(line, sizeof line, file));
+    fclose(file);
+    free(time);
+    free(force);
+}
+
+static void a_csv_file_of_someone_else_stays(void** state) {
+    fixture* f = *state;
+    char path[4096], line[64];
+    bt_history* history = NULL;
+    toy_path(path, f->directory, "mine.csv");
+    FILE* file = fopen(path, "w");
+    fputs("mine\n", file);
+    fclose(file);
+    assert_int_equal(bt_history_create(&history), BT_OK);
+    assert_int_equal(bt_history_write(history, path, &f->study, &f->result, NULL), BT_ERR_IO);
+    bt_history_destroy(history);
+    file = fopen(path, "r");
+    assert_string_equal(fgets(line, sizeof line, file), "mine\n");
+    fclose(file);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_dataset_has_its_unit_and_as_many_rows_as_there_are_times),
+        cmocka_unit_test(every_row_of_the_view_has_a_name_a_unit_and_a_meaning),
+        cmocka_unit_test(the_csv_holds_what_the_hdf5_file_holds),
+        cmocka_unit_test(a_csv_file_of_someone_else_stays),
         cmocka_unit_test(the_histories_agree_with_the_result),
         cmocka_unit_test(euler_parameters_stay_of_unit_length),
         cmocka_unit_test(the_cable_spans_the_deck_at_every_stored_time),

@@ -557,6 +557,18 @@ static int64_t sql_count(fixture* f, const char* text) {
     return number;
 }
 
+static void every_result_is_a_column(void** state) {
+    fixture* f = *state;
+    bt_ledger_close(opened(f));
+    for (int i = 0; i < bt_result_column_count; ++i) {
+        char text[160];
+        snprintf(text, sizeof text,
+                 "SELECT count(*) FROM pragma_table_info('runs') WHERE name = '%s'",
+                 bt_result_columns[i].name);
+        assert_int_equal(sql_count(f, text), bt_result_columns[i].bounce < 2);
+    }
+}
+
 static void a_column_that_a_user_adds_is_left_alone(void** state) {
     fixture* f = *state;
     bt_ledger* ledger = opened(f);
@@ -695,6 +707,7 @@ static void a_path_longer_than_sqlite_takes_is_said(void** state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(remarks_and_density_come_back_to_the_bit),
+        TEST(every_result_is_a_column),
         TEST(a_column_that_a_user_adds_is_left_alone),
         TEST(a_result_that_the_file_does_not_have_reads_empty_and_is_added),
         TEST(the_views_sort_the_runs),

@@ -3,6 +3,7 @@
 #include "near.h"
 
 #include "base/units.h"
+#include "calibration/simulated_case.h"
 #include "landing/result.h"
 #include "report/landing_report.h"
 
@@ -98,6 +99,31 @@ static void the_rows_fill_the_struct(void** state) {
     assert_true(sizeof(bt_landing_result) - bytes < 8 * 8); // no more than padding
 }
 
+static bool is_landing_metric(const char* name, const char* token) {
+    for (int i = 0; i < bt_simulated_case_metric_count(BT_CASE_LANDING); ++i) {
+        bt_metric_name m;
+        if (bt_simulated_case_metric(BT_CASE_LANDING, i, &m) && strcmp(m.name, name) == 0)
+            return strcmp(m.token, token) == 0;
+    }
+    return false;
+}
+
+static void every_number_is_a_metric(void** state) {
+    (void)state;
+    assert_in_range(bt_simulated_case_metric_count(BT_CASE_LANDING), 1, BT_CASE_METRIC_MAX);
+    for (int i = 0; i < bt_result_column_count; ++i) {
+        const bt_result_column* c = &bt_result_columns[i];
+        const bool tells = strcmp(c->name, "wall_s") != 0 && strcmp(c->name, "failed_time_s") != 0;
+        assert_int_equal(is_landing_metric(c->quantity, c->unit),
+                         c->kind == BT_RESULT_REAL && tells);
+    }
+    // names that files of 0.1 have
+    assert_true(is_landing_metric("bounce_height", "m"));
+    assert_true(is_landing_metric("second_bounce_height", "m"));
+    assert_true(is_landing_metric("tyre_force_max_left", "N"));
+    assert_true(is_landing_metric("margin", "m"));
+}
+
 static void a_bounce_that_never_was_has_no_metric(void** state) {
     (void)state;
     bt_landing_result r = full_result();
@@ -171,6 +197,7 @@ int main(void) {
         cmocka_unit_test(every_row_has_one_name_a_known_unit_and_a_meaning),
         cmocka_unit_test(the_rows_fill_the_struct),
         cmocka_unit_test(every_row_is_in_the_json),
+        cmocka_unit_test(every_number_is_a_metric),
         cmocka_unit_test(a_bounce_that_never_was_has_no_metric),
         cmocka_unit_test(a_remark_keeps_its_first_time_and_reads_back),
         cmocka_unit_test(all_remarks_at_once_fit_their_text),

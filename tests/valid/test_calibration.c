@@ -311,6 +311,9 @@ static void wrong_files_are_refused_with_the_place(void** state) {
     assert_refused(ONE_PARAMETER "targets:\n  - {metric: bounce_hight, value: 53 mm, tolerance: "
                                  "5 %}\n",
                    "\"bounce_hight\" is no metric; did you mean \"bounce_height\"?");
+    assert_refused(ONE_PARAMETER
+                   "targets:\n  - {metric: impact_force, value: 1 N, tolerance: 1 %}\n",
+                   "\"impact_force\" is no metric; did you mean \"bounce_impact_force\"?");
     assert_refused(ONE_PARAMETER "targets:\n  - {metric: bounce_height, value: 53 kN, tolerance: "
                                  "5 %}\n",
                    "calibration.yaml:4:36: error: targets[1].value: ");
