@@ -196,7 +196,7 @@ static void bench_conditions(const bt_surrogate* s) {
     }
     char name[96];
     snprintf(name, sizeof name, "24 x 1e6 samples, %d vectors, %d threads", s->sv_count,
-             bt_tasks_threads(0));
+             bt_thread_count(0));
     bench_row(name, bench_now_s() - begun, "s", NULL, 0, 5);
     bt_predictor_destroy(p);
 }

@@ -1,12 +1,90 @@
+#define _GNU_SOURCE /* sched_getaffinity */
 #include "base/tasks.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stdlib.h>
-#include <unistd.h>
 
-typedef struct crew {
+/* ---- cores ---- */
+
+/// Cores that this process may use. The kernel refuses a set smaller than its own.
+static int usable_cores(void) {
+    int cores = 1;
+    for (int room = CPU_SETSIZE; room <= (1 << 20); room *= 4) {
+        cpu_set_t* set = CPU_ALLOC((size_t)room);
+        const size_t size = CPU_ALLOC_SIZE((size_t)room);
+        const bool got = set && sched_getaffinity(0, size, set) == 0;
+        const bool too_small = set && !got && errno == EINVAL;
+        if (got)
+            cores = CPU_COUNT_S(size, set);
+        CPU_FREE(set);
+        if (!too_small)
+            break;
+    }
+    return cores;
+}
+
+int bt_thread_count(int requested) {
+    const int threads = requested > 0 ? requested : usable_cores();
+    return threads < 1 ? 1 : threads > BT_THREADS_MAX ? BT_THREADS_MAX : threads;
+}
+
+/* ---- threads ---- */
+
+typedef struct worker_thread {
+    bt_workers* group;
+    int id;
+    pthread_t handle;
+} worker_thread;
+
+struct bt_workers {
+    bt_worker_main* run;
+    void* user;
+    int started;
+    worker_thread thread[];
+};
+
+static void* worker_main(void* argument) {
+    const worker_thread* self = argument;
+    self->group->run(self->group->user, self->id);
+    return NULL;
+}
+
+bt_status bt_workers_start(int count, bt_worker_main* run, void* user, bt_workers** workers) {
+    *workers = NULL;
+    bt_workers* group = calloc(1, sizeof *group + (size_t)count * sizeof group->thread[0]);
+    if (!group)
+        return BT_ERR_MEMORY;
+    group->run = run;
+    group->user = user;
+    while (group->started < count) {
+        worker_thread* next = &group->thread[group->started];
+        *next = (worker_thread){.group = group, .id = group->started};
+        if (pthread_create(&next->handle, NULL, worker_main, next) != 0)
+            break;
+        ++group->started;
+    }
+    if (group->started == 0) {
+        free(group);
+        return BT_ERR_MEMORY;
+    }
+    *workers = group;
+    return BT_OK;
+}
+
+void bt_workers_join(bt_workers* workers) {
+    for (int i = 0; workers && i < workers->started; ++i)
+        pthread_join(workers->thread[i].handle, NULL);
+    free(workers);
+}
+
+/* ---- tasks ---- */
+
+typedef struct queue {
     bt_task* run;
     void* user;
     int count;
@@ -14,60 +92,42 @@ typedef struct crew {
     pthread_mutex_t lock; ///< guards the two below
     int failed_task;
     bt_status status;
-} crew;
+} queue;
 
-typedef struct worker {
-    crew* crew;
-    int id;
-    pthread_t thread;
-} worker;
-
-int bt_tasks_threads(int threads) {
-    const long cores = threads > 0 ? threads : sysconf(_SC_NPROCESSORS_ONLN);
-    return cores < 1 ? 1 : cores > 1024 ? 1024 : (int)cores;
-}
-
-static void* work(void* argument) {
-    const worker* self = argument;
-    crew* c = self->crew;
-    while (!atomic_load(&c->stop)) {
-        const int task = atomic_fetch_add(&c->next, 1);
-        if (task >= c->count)
+static void work(queue* q, int worker) {
+    while (!atomic_load(&q->stop)) {
+        const int task = atomic_fetch_add(&q->next, 1);
+        if (task >= q->count)
             break;
-        const bt_status status = c->run(c->user, task, self->id);
+        const bt_status status = q->run(q->user, task, worker);
         if (status == BT_OK)
             continue;
-        atomic_store(&c->stop, 1);
-        pthread_mutex_lock(&c->lock);
-        if (task < c->failed_task) {
-            c->failed_task = task;
-            c->status = status;
+        atomic_store(&q->stop, 1);
+        pthread_mutex_lock(&q->lock);
+        if (task < q->failed_task) {
+            q->failed_task = task;
+            q->status = status;
         }
-        pthread_mutex_unlock(&c->lock);
+        pthread_mutex_unlock(&q->lock);
     }
-    return NULL;
+}
+
+/// The calling thread is worker 0.
+static void help(void* user, int worker) {
+    work(user, worker + 1);
 }
 
 bt_status bt_tasks_run(int threads, int count, bt_task* run, void* user) {
-    threads = bt_tasks_threads(threads);
+    threads = bt_thread_count(threads);
     if (threads > count)
         threads = count;
-    crew c = {.run = run, .user = user, .count = count, .failed_task = INT_MAX, .status = BT_OK};
-    pthread_mutex_init(&c.lock, NULL);
-    worker* workers = calloc((size_t)threads + 1, sizeof *workers);
-    int started = 1;
-    if (workers) {
-        for (int i = 0; i < threads; ++i)
-            workers[i] = (worker){.crew = &c, .id = i};
-        while (started < threads &&
-               !pthread_create(&workers[started].thread, NULL, work, &workers[started]))
-            ++started;
-    }
-    worker self = {.crew = &c, .id = 0};
-    work(&self);
-    for (int i = 1; workers && i < started; ++i)
-        pthread_join(workers[i].thread, NULL);
-    free(workers);
-    pthread_mutex_destroy(&c.lock);
-    return c.status;
+    queue q = {.run = run, .user = user, .count = count, .failed_task = INT_MAX, .status = BT_OK};
+    pthread_mutex_init(&q.lock, NULL);
+    bt_workers* helpers = NULL;
+    if (threads > 1 && bt_workers_start(threads - 1, help, &q, &helpers) != BT_OK)
+        helpers = NULL; // the calling thread does it all
+    work(&q, 0);
+    bt_workers_join(helpers);
+    pthread_mutex_destroy(&q.lock);
+    return q.status;
 }

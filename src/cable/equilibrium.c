@@ -258,7 +258,7 @@ static bool hangs_clear(const bt_cable_model* model, const bt_cable_state* s, bt
             bt_cable_centreline(model, s, d->support_y_m.value[k], -1, at, NULL, NULL) < 0)
             continue;
         bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "cable: at rest it hangs %g m above its support at y = %g m; raise the "
+                    "deck.cable: at rest it hangs %g m above its support at y = %g m; raise the "
                     "supports by more than that, lower the sheaves or the pretension",
                     at[2] - model->radius_m - d->support.height_m, d->support_y_m.value[k]);
         return true;
@@ -269,10 +269,11 @@ static bool hangs_clear(const bt_cable_model* model, const bt_cable_state* s, bt
 static bool lies_on_deck(const bt_cable_model* model, const bt_cable_state* s, bt_diag* diag) {
     for (int i = 0; model->def.deck && model->def.support_y_m.count > 0 && i < model->count; ++i)
         if (s->z[i] < model->radius_m) {
-            bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                        "cable: at rest it lies on the deck at y = %g m; more pretension, higher "
-                        "supports or supports nearer together",
-                        s->y[i]);
+            bt_diag_add(
+                diag, BT_ERROR, BT_NOWHERE,
+                "deck.cable: at rest it lies on the deck at y = %g m; more pretension, higher "
+                "supports or supports nearer together",
+                s->y[i]);
             return true;
         }
     return false;
@@ -324,7 +325,7 @@ bt_status bt_cable_equilibrium(const bt_cable_model* model, bt_cable_state* stat
         *residual_N = left;
     if (!(left < 1e-3)) {
         bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                    "cable: no static equilibrium found (%g N left after %d iterations)", left,
+                    "deck.cable: no static equilibrium found (%g N left after %d iterations)", left,
                     (int)NEWTON_MAX);
         status = BT_ERR_NUMERIC;
     } else {

@@ -75,7 +75,7 @@ static bt_status check_def(const bt_cable_def* def, bt_diag* diag) {
             bad = "segment length";
     if (!bad)
         return BT_OK;
-    bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "cable: the %s cannot be used", bad);
+    bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "deck.cable: the %s cannot be used", bad);
     return BT_ERR_INPUT;
 }
 

@@ -1,21 +1,25 @@
 #include "calibration/evaluate.h"
 
+#include "base/tasks.h"
 #include "calibration/simulated_case.h"
-#include "campaign/executor.h"
 
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { THREADS_MAX = 64 };
-
 bool bt_target_is_one_sided(const bt_target* target) {
     return target->kind == BT_TARGET_AT_MOST || target->kind == BT_TARGET_AT_LEAST ||
            target->kind == BT_TARGET_INCREASING || target->kind == BT_TARGET_DECREASING;
 }
 
-/// What the threads share: they take runs by number, each writes what is its own.
+/// What one thread needs for its runs.
+typedef struct scratch {
+    bt_lander* lander;
+    bt_parameter_set specimen;
+} scratch;
+
+/// What the threads share: each run writes what is its own.
 typedef struct shared {
     const bt_calibration* calibration;
     const double* u;
@@ -23,9 +27,8 @@ typedef struct shared {
     double* metric; ///< [run_count][BT_CASE_METRIC_MAX]
     double* rows;   ///< rows of curves receive what the model did
     const atomic_int* stop;
-    atomic_int next;
+    scratch* scratch; ///< [threads]
     pthread_mutex_t lock;
-    bt_status status;
     bt_diag* diag; ///< used under the lock
 } shared;
 
@@ -63,62 +66,49 @@ static int find_curves(const bt_calibration* c, int experiment, double* rows,
     return count;
 }
 
-static bt_status run_one(shared* s, int run, bt_lander* lander, bt_parameter_set* specimen,
-                         bt_diag* diag) {
+static bt_status run_one(void* user, int run, int worker) {
+    shared* s = user;
+    if (s->stop && atomic_load(s->stop) != 0)
+        return BT_ERR_INTERRUPTED;
     const bt_calibration* c = s->calibration;
     const int point = run / c->experiment_count, index = run % c->experiment_count;
     const bt_simulated_case* experiment = &c->experiments[index];
+    bt_diag diag = {.sink = report, .user = s};
+    bt_parameter_set* specimen = &s->scratch[worker].specimen;
     bt_followed followed[BT_TARGET_MAX];
     double* metric = s->metric + (size_t)run * BT_CASE_METRIC_MAX;
     const int count =
         find_curves(c, index, s->rows + (size_t)point * (size_t)c->row_count, followed);
     prepare(c, s->u + (size_t)point * (size_t)c->parameter_count, experiment, specimen);
-    if (bt_parameter_set_check(specimen, bt_simulated_case_part(experiment->kind), diag) == BT_OK)
-        return bt_simulated_case_run(lander, experiment->kind, specimen, metric, followed, count,
-                                     diag);
+    bt_status status =
+        bt_parameter_set_check(specimen, bt_simulated_case_part(experiment->kind), &diag);
+    if (status == BT_OK)
+        status = bt_simulated_case_run(s->scratch[worker].lander, experiment->kind, specimen,
+                                       metric, followed, count, &diag);
+    if (status != BT_ERR_INPUT)
+        return status;
     // parameters that do not go together: no value, like a run that diverged
     bt_simulated_case_void(metric, followed, count);
     return BT_OK;
 }
 
-static void* work(void* argument) {
-    shared* s = argument;
-    bt_diag diag = {.sink = report, .user = s};
-    bt_lander* lander = NULL;
-    bt_parameter_set* specimen = malloc(sizeof *specimen);
-    bt_status status = specimen ? bt_lander_create(&lander) : BT_ERR_MEMORY;
-    while (status == BT_OK) {
-        if (s->stop && atomic_load(s->stop) != 0) {
-            status = BT_ERR_INTERRUPTED;
-            break;
-        }
-        const int run = atomic_fetch_add(&s->next, 1);
-        if (run >= s->run_count)
-            break;
-        status = run_one(s, run, lander, specimen, &diag);
-    }
-    bt_lander_destroy(lander);
-    free(specimen);
-    pthread_mutex_lock(&s->lock);
-    if (s->status == BT_OK)
-        s->status = status;
-    pthread_mutex_unlock(&s->lock);
-    return NULL;
-}
-
 static bt_status run_all(shared* s) {
-    pthread_t others[THREADS_MAX];
-    int started = 0;
-    const int wanted = bt_thread_count(s->calibration->threads);
+    const int threads = bt_thread_count(s->calibration->threads);
+    s->scratch = calloc((size_t)threads, sizeof *s->scratch);
+    bt_status status = s->scratch ? BT_OK : BT_ERR_MEMORY;
+    for (int i = 0; i < threads && status == BT_OK; ++i) {
+        status = bt_lander_create(&s->scratch[i].lander);
+        if (status == BT_OK)
+            bt_lander_obey(s->scratch[i].lander, s->stop);
+    }
     pthread_mutex_init(&s->lock, NULL);
-    while (started < wanted - 1 && started < s->run_count - 1 && started < THREADS_MAX &&
-           pthread_create(&others[started], NULL, work, s) == 0)
-        ++started;
-    work(s);
-    for (int i = 0; i < started; ++i)
-        pthread_join(others[i], NULL);
+    if (status == BT_OK)
+        status = bt_tasks_run(threads, s->run_count, run_one, s);
     pthread_mutex_destroy(&s->lock);
-    return s->status;
+    for (int i = 0; s->scratch && i < threads; ++i)
+        bt_lander_destroy(s->scratch[i].lander);
+    free(s->scratch);
+    return status;
 }
 
 // --- residuals --------------------------------------------------------------------------------

@@ -9,7 +9,7 @@
 /// @param rows   [points][row_count] c_i in tolerances, before max(0, .) of bounds and trends; NAN
 ///               where a run failed or the parameters do not go together (said in diag)
 /// @param got    [points][target_count] what the targets compare, SI; may be NULL
-/// @return BT_OK, BT_ERR_INTERRUPTED, BT_ERR_INPUT (a rig that cannot be built), BT_ERR_MEMORY
+/// @return BT_OK, BT_ERR_INTERRUPTED, BT_ERR_MEMORY
 BT_CHECKED bt_status bt_calibration_evaluate(const bt_calibration* calibration, const double* u,
                                              int points, const atomic_int* stop, double* rows,
                                              double* got, bt_diag* diag);

@@ -1,8 +1,9 @@
 #include "campaign/campaign.h"
 
+#include "base/clock.h"
+
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
 enum { GROUP_RUNS = 64 };
 static const double group_seconds = 1.0;
@@ -19,12 +20,6 @@ typedef struct campaign {
     int uncommitted;
     double started_s, committed_s;
 } campaign;
-
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static bool mine(const campaign* c, int64_t run) {
     return c->options->shards <= 1 || run % c->options->shards == c->options->shard;
@@ -64,7 +59,7 @@ static bool next_job(void* user, bt_job* job) {
 
 static bt_status commit(campaign* c) {
     c->uncommitted = 0;
-    c->committed_s = now_s();
+    c->committed_s = bt_clock_s();
     return bt_ledger_commit(c->ledger, c->diag);
 }
 
@@ -77,10 +72,10 @@ static bt_status store(void* user, const bt_job* job, const bt_landing_result* r
 
 static bt_status pulse(void* user) {
     campaign* c = user;
-    c->progress->seconds = now_s() - c->started_s;
+    c->progress->seconds = bt_clock_s() - c->started_s;
     if (c->options->watch)
         c->options->watch(c->options->user, c->progress);
-    if (c->uncommitted > 0 && now_s() - c->committed_s >= group_seconds)
+    if (c->uncommitted > 0 && bt_clock_s() - c->committed_s >= group_seconds)
         return commit(c);
     return BT_OK;
 }
@@ -118,15 +113,15 @@ bt_status bt_campaign_run(const bt_study* study, bt_ledger* ledger,
                   .progress = progress,
                   .ledger = ledger,
                   .diag = diag,
-                  .started_s = now_s(),
-                  .committed_s = now_s()};
+                  .started_s = bt_clock_s(),
+                  .committed_s = bt_clock_s()};
     BT_TRY(bt_design_create(study, &c.design, diag));
     c.count = bt_design_count(c.design);
     c.present = calloc((size_t)(c.count / 8 + 1), 1);
     bt_status status = c.present ? run(&c, study) : BT_ERR_MEMORY;
     free(c.present);
     bt_design_destroy(c.design);
-    progress->seconds = now_s() - c.started_s;
+    progress->seconds = bt_clock_s() - c.started_s;
     if (options->watch)
         options->watch(options->user, progress);
     if (status == BT_OK &&

@@ -1,5 +1,5 @@
-/// The executor: many independent landings on several threads. Each thread has its own lander and
-/// its own copy of the model; the threads share only the queue of points and the queue of results.
+/// The executor: one call for a batch of landings, "these points, these results". Points come from
+/// a source, results go to a sink, and a back end (campaign/backend.h) computes them.
 #ifndef BT_CAMPAIGN_EXECUTOR_H
 #define BT_CAMPAIGN_EXECUTOR_H
 
@@ -13,42 +13,57 @@ typedef struct bt_job {
     double x[BT_INPUT_MAX];
 } bt_job;
 
-/// Gives the next job; false when there is none left. Called by one thread at a time.
+/// Gives the next job; false when there is none left, and then it is not asked again. Called, like
+/// the sink and the pulse, on the thread that called bt_executor_run.
 typedef bool bt_job_source(void* user, bt_job* job);
 
-/// Receives a finished landing, on the thread that called bt_executor_run, in order of arrival.
-/// A status other than BT_OK ends the work.
+/// Receives a finished landing, in order of arrival. A status other than BT_OK ends the work.
 typedef bt_status bt_job_sink(void* user, const bt_job* job, const bt_landing_result* result);
 
-/// Called on the same thread at least four times a second: commit, show progress.
+/// Called at least four times a second: commit, show progress.
 typedef bt_status bt_job_pulse(void* user);
+
+/// What the observer of a job's landing is given; called on the thread that runs it, at the same
+/// time as others: it may only look up what belongs to this job.
+typedef void* bt_job_observed(void* user, const bt_job* job);
+
+struct bt_backend;
 
 typedef struct bt_executor {
     const bt_model_params* model; ///< what every landing shares
     const bt_input* inputs;       ///< the study's inputs
     const bt_axes* axes;          ///< which of them x is made of
-    int threads;                  ///< 0: one per core
-    const atomic_int* stop; ///< may be NULL; once not 0, landings in flight end and no more begin
+    int threads;                  ///< see bt_thread_count
+    /// May be NULL. Once not 0 no more landings begin; those in flight may end, or are given up
+    /// half a second later.
+    const atomic_int* stop;
     bt_job_source* source;
     bt_job_sink* sink;
-    bt_job_pulse* pulse; ///< may be NULL
-    void* user;          ///< of source, sink and pulse
+    bt_job_pulse* pulse;              ///< may be NULL
+    bt_landing_observer* observer;    ///< may be NULL; needs a back end in this process
+    bt_job_observed* observed;        ///< its user, for each job
+    void* user;                       ///< of source, sink, pulse and observed
+    const struct bt_backend* backend; ///< NULL: threads
 } bt_executor;
 
-/// Runs every job. A landing that diverges is a result, not an error; so is a point that lies
-/// outside what the model allows (failed_element names the key, failed_quantity says so).
+/// Runs every job. What a job's own numbers make impossible is a result, not an error: a landing
+/// that diverges, a point outside what the model allows, and one that cannot be assembled or has
+/// no equilibrium (failed_element names the key, failed_quantity the reason).
 /// Returns BT_OK, BT_ERR_INTERRUPTED (stop was set while jobs were left), what the sink or the
-/// pulse returned, BT_ERR_INPUT (the landing cannot be assembled, said in diag), BT_ERR_MEMORY.
+/// pulse returned, BT_ERR_MEMORY.
 BT_CHECKED bt_status bt_executor_run(const bt_executor* executor, bt_diag* diag);
 
-/// One landing on the calling thread: the model with x in place of its axes. Errors as
-/// bt_lander_run. `model` is scratch: its axes are overwritten.
+/// One landing on the calling thread: the model with x in place of its axes; impossible numbers as
+/// in bt_executor_run. `model` is scratch: its axes are overwritten. Returns BT_OK,
+/// BT_ERR_INTERRUPTED (bt_lander_obey), BT_ERR_MEMORY.
 BT_CHECKED bt_status bt_landing_at(bt_lander* lander, bt_model_params* model,
                                    const bt_input* inputs, const bt_axes* axes, const double* x,
                                    bt_landing_result* result, bt_landing_observer* observer,
-                                   void* user, bt_diag* diag);
+                                   void* user);
 
-/// Threads for a request: itself, or one per core the process may use.
-int bt_thread_count(int requested);
+/// One landing of a model that has no fault yet: checks it first; otherwise as bt_landing_at.
+BT_CHECKED bt_status bt_landing_try(bt_lander* lander, const bt_model_params* model,
+                                    bt_landing_result* result, bt_landing_observer* observer,
+                                    void* user);
 
 #endif

@@ -1,5 +1,7 @@
 #include "campaign/ledger_parts.h"
 
+#include "base/hash.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -8,11 +10,8 @@ typedef struct hashing {
     uint64_t hash;
 } hashing;
 
-/// FNV-1a, 64 bits.
 static void hash_bytes(hashing* h, const void* data, size_t size) {
-    const unsigned char* bytes = data;
-    for (size_t i = 0; i < size; ++i)
-        h->hash = (h->hash ^ bytes[i]) * 0x100000001b3u;
+    h->hash = bt_hash_bytes(h->hash, data, size);
 }
 
 static void hash_remarks(hashing* h, const bt_remarks* remarks) {
@@ -62,7 +61,7 @@ static bool hash_row(void* user, const bt_ledger_row* row) {
 }
 
 bt_status bt_ledger_hash(bt_ledger* ledger, uint64_t* hash, bt_diag* diag) {
-    hashing h = {.axis_count = ledger->axes.count, .hash = 0xcbf29ce484222325u};
+    hashing h = {.axis_count = ledger->axes.count, .hash = BT_HASH_START};
     BT_TRY(bt_ledger_walk(ledger, hash_row, &h, diag));
     *hash = h.hash;
     return BT_OK;

@@ -1,3 +1,4 @@
+#include "base/clock.h"
 #include "cli/cli.h"
 
 #include "base/directory.h"
@@ -210,12 +211,12 @@ static bt_status write_overlay(const bt_calibration* c, const bt_fit* fit, const
 static bt_status calibrate(const bt_command* command, const bt_calibration* c, const char* file) {
     bt_diag diag = bt_stderr_diag();
     bt_progress progress = bt_progress_start("calibrate", command->quiet);
-    const double start_s = bt_now_s();
+    const double start_s = bt_clock_s();
     bt_fit* fit = malloc(sizeof *fit);
     if (!fit)
         return BT_ERR_MEMORY;
     bt_status status = bt_calibration_fit(c, fit, &bt_interrupted, show_progress, &progress, &diag);
-    const double seconds = bt_now_s() - start_s;
+    const double seconds = bt_clock_s() - start_s;
     if (status == BT_ERR_INTERRUPTED)
         fprintf(stderr, "calibrate: interrupted after %d steps, nothing was written\n", fit->steps);
     if (status == BT_OK) {

@@ -34,7 +34,9 @@ bt_status bt_chain_campaign(bt_chain* chain, int shard, int shards,
     bt_progress line = bt_progress_start("campaign", chain->command->quiet || chain->command->json);
     const bt_campaign_options options = {
         .shard = shard, .shards = shards, .stop = &bt_interrupted, .watch = show, .user = &line};
+    atomic_store(&bt_grace_s, 5);
     const bt_status status = bt_stage_campaign(&chain->directory, &options, progress);
+    atomic_store(&bt_grace_s, 1);
     char took[32];
     bt_duration_text(progress->seconds, took, sizeof took);
     const int64_t fresh = progress->done - progress->before;

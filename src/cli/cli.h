@@ -51,6 +51,13 @@ int bt_exit_code(bt_status status);
 /// A sink that prints to stderr as "file:line:column: error: text".
 bt_diag bt_stderr_diag(void);
 
+/// Whether an error was printed by such a sink, by bt_usage_error or by bt_say_error: a verb that
+/// fails without a word is given the text of its status.
+bool bt_error_was_said(void);
+/// "bolter VERB: text" on stderr.
+void bt_say_error(const bt_command* command, const char* format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 /// Reads the study of a command (first word, --set, -o); says everything that is wrong with it.
 /// BT_OK: the caller owns it (bt_study_destroy).
 BT_CHECKED bt_status bt_command_study(const bt_command* command, bt_study* study);
@@ -69,8 +76,12 @@ bt_status bt_refuse_output(const bt_command* command);
 bool bt_whole_number(const bt_command* command, const char* name, const char* text, int64_t least,
                      int64_t* value);
 
-/// Not 0 once the user asked to stop (SIGINT, SIGTERM).
+/// Not 0 once the user asked to stop (SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU).
 extern atomic_int bt_interrupted;
+
+/// Seconds after such a signal until the program ends as it is. Work whose results are kept sets
+/// it higher: it ends well within a second, but a slow disk may want longer for the last of them.
+extern atomic_int bt_grace_s;
 
 /// The line that long work shows: rewritten on a terminal, one a minute elsewhere, none if quiet.
 typedef struct bt_progress {
@@ -83,9 +94,6 @@ bt_progress bt_progress_start(const char* name, bool quiet);
 /// Shows a line if it is due. `last` shows it in any case and ends it.
 void bt_progress_show(bt_progress* progress, bool last, const char* format, ...)
     __attribute__((format(printf, 3, 4)));
-
-/// Seconds of a steady clock.
-double bt_now_s(void);
 
 /// "3 s", "4 min 10 s", "2 h 05 min"
 void bt_duration_text(double seconds, char* text, size_t size);

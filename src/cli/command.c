@@ -107,9 +107,30 @@ int bt_exit_code(bt_status status) {
     }
 }
 
+static bool error_said;
+
+bool bt_error_was_said(void) {
+    return error_said;
+}
+
+static void say(const bt_command* command, const char* format, va_list args) {
+    error_said = true;
+    fprintf(stderr, "bolter %s: ", command->verb->name);
+    vfprintf(stderr, format, args);
+    fputc('\n', stderr);
+}
+
+void bt_say_error(const bt_command* command, const char* format, ...) {
+    va_list args;
+    va_start(args, format);
+    say(command, format, args);
+    va_end(args);
+}
+
 static void print_message(void* user, bt_severity severity, bt_where where, const char* text) {
     char line[2048];
     (void)user;
+    error_said = error_said || severity == BT_ERROR;
     bt_diag_format(line, sizeof line, severity, where, text);
     fprintf(stderr, "%s\n", line);
 }
@@ -162,11 +183,10 @@ bt_status bt_command_rigs(const bt_command* command, bt_study* study) {
 
 bt_status bt_usage_error(const bt_command* command, const char* format, ...) {
     va_list args;
-    fprintf(stderr, "bolter %s: ", command->verb->name);
     va_start(args, format);
-    vfprintf(stderr, format, args);
+    say(command, format, args);
     va_end(args);
-    fprintf(stderr, "\nTry `bolter %s --help' for more information.\n", command->verb->name);
+    fprintf(stderr, "Try `bolter %s --help' for more information.\n", command->verb->name);
     return BT_ERR_ARG;
 }
 

@@ -9,6 +9,7 @@ static bt_status land(const bt_command* command, const bt_study* study, bt_histo
     bt_lander* lander = NULL;
     bt_landing_result result;
     BT_TRY(bt_lander_create(&lander));
+    bt_lander_obey(lander, &bt_interrupted);
     bt_status status = bt_lander_run(lander, &study->model, &result,
                                      history ? bt_history_observe : NULL, history, &diag);
     bt_lander_destroy(lander);
@@ -21,7 +22,11 @@ static bt_status land(const bt_command* command, const bt_study* study, bt_histo
         bt_landing_write_json(&json, &result);
     } else if (!command->quiet)
         bt_landing_print(stdout, &result);
-    return result.outcome == BT_FAILED ? BT_ERR_FAILED_RUNS : BT_OK;
+    if (result.outcome != BT_FAILED)
+        return BT_OK;
+    bt_say_error(command, "the landing failed: %s, %s at %.4g s", result.failed_element,
+                 result.failed_quantity, result.failed_time_s);
+    return BT_ERR_FAILED_RUNS;
 }
 
 static bt_status run(const bt_command* command) {

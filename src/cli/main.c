@@ -4,10 +4,13 @@
 #include "base/arithmetic.h"
 #include "study/reader.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static const bt_verb* const verbs[] = {
     &bt_verb_check,     &bt_verb_keys,     &bt_verb_land,        &bt_verb_rig, &bt_verb_sweep,
@@ -17,19 +20,53 @@ static const bt_verb* const verbs[] = {
 enum { VERB_COUNT = sizeof verbs / sizeof verbs[0] };
 
 atomic_int bt_interrupted;
+atomic_int bt_grace_s = 1;
 
 static void interrupt(int signal_number) {
     (void)signal_number;
-    atomic_store(&bt_interrupted, 1);
+    if (atomic_exchange(&bt_interrupted, 1) == 0)
+        alarm((unsigned)atomic_load(&bt_grace_s));
 }
 
-/// SIGINT and SIGTERM ask to stop; a second one ends the program at once. A file that grows too
-/// large is an error to report, not a reason to die.
+/// What has not come to its end after the grace has nothing to keep, or has kept it already
+/// (the ledger and every file change in one step).
+static void give_up(int signal_number) {
+    static const char text[] = "bolter: interrupted\n";
+    (void)signal_number;
+    (void)!write(STDERR_FILENO, text, sizeof text - 1);
+    _exit(bt_exit_code(BT_ERR_INTERRUPTED));
+}
+
+/// Signals by which people, terminals and batch systems ask a program to end: an orderly end. A
+/// second SIGINT or SIGTERM ends it at once. SIGHUP stays ignored under nohup. A file that
+/// grows too large is an error to report, not a reason to die.
 static void catch_signals(void) {
-    struct sigaction action = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND | SA_RESTART};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    static const struct {
+        int number, flags;
+    } asked[] = {{SIGINT, (int)SA_RESETHAND},
+                 {SIGTERM, (int)SA_RESETHAND},
+                 {SIGHUP, 0},
+                 {SIGUSR1, 0},
+                 {SIGXCPU, 0}};
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; ++i) {
+        struct sigaction action, before;
+        memset(&action, 0, sizeof action);
+        action.sa_handler = interrupt;
+        action.sa_flags = asked[i].flags | SA_RESTART;
+        sigaction(asked[i].number, NULL, &before);
+        if (asked[i].number != SIGHUP || before.sa_handler != SIG_IGN)
+            sigaction(asked[i].number, &action, NULL);
+    }
+    signal(SIGALRM, give_up);
     signal(SIGXFSZ, SIG_IGN);
+}
+
+/// A closed standard stream is opened again on nothing, so that no file of ours gets its number
+/// and with it what is printed. Standard output stays unwritable, which is said at the end.
+static void keep_streams(void) {
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+        if (fcntl(stream, F_GETFD) == -1 && errno == EBADF)
+            (void)!open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 static void print_help(FILE* out) {
@@ -83,13 +120,14 @@ static int run_verb(const bt_verb* verb, int argc, char** argv) {
     }
     catch_signals();
     bt_status status = verb->run(&command);
-    if (status == BT_ERR_MEMORY || status == BT_ERR_INTERNAL || status == BT_ERR_NUMERIC)
+    if (status != BT_OK && !bt_error_was_said())
         fprintf(stderr, "bolter %s: %s\n", verb->name, bt_status_text(status));
     return bt_exit_code(status);
 }
 
 int main(int argc, char** argv) {
     int code = 0;
+    keep_streams();
     if (argc < 2) {
         print_help(stderr);
         code = bt_exit_code(BT_ERR_ARG);

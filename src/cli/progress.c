@@ -1,16 +1,10 @@
+#include "base/clock.h"
 #include "cli/cli.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <time.h>
 #include <unistd.h>
-
-double bt_now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 void bt_duration_text(double seconds, char* text, size_t size) {
     const long s = isfinite(seconds) && seconds < 1e9 ? lround(seconds) : -1;
@@ -28,12 +22,12 @@ bt_progress bt_progress_start(const char* name, bool quiet) {
     return (bt_progress){.name = name,
                          .quiet = quiet,
                          .terminal = isatty(STDERR_FILENO) != 0,
-                         .shown_s = bt_now_s()};
+                         .shown_s = bt_clock_s()};
 }
 
 void bt_progress_show(bt_progress* progress, bool last, const char* format, ...) {
     const double interval_s = progress->terminal ? 0.2 : 60.0;
-    const double now_s = bt_now_s();
+    const double now_s = bt_clock_s();
     if (progress->quiet || (!last && now_s - progress->shown_s < interval_s))
         return;
     progress->shown_s = now_s;

@@ -14,9 +14,10 @@ static bt_status repeat(bt_chain* chain, const bt_ledger_row* row, bt_history* h
     bt_lander* lander = NULL;
     bt_status status = model ? bt_lander_create(&lander) : BT_ERR_MEMORY;
     if (status == BT_OK) {
+        bt_lander_obey(lander, &bt_interrupted);
         *model = chain->study.model;
         status = bt_landing_at(lander, model, chain->study.inputs, &axes, row->x, result,
-                               history ? bt_history_observe : NULL, history, &chain->diag);
+                               history ? bt_history_observe : NULL, history);
     }
     bt_lander_destroy(lander);
     free(model);

@@ -181,8 +181,8 @@ static bt_status run_plan(const bt_command* command, const bt_study* study, cons
     bt_sweep sweep;
     BT_TRY(bt_sweep_find(&model, p->key, &field, &offset, &diag));
     BT_TRY(bt_sweep_values(field, p->key, p->values, values, &count, &diag));
-    BT_TRY(
-        bt_sweep_run(&model, p->key, values, count, (int)study->campaign.threads, &sweep, &diag));
+    BT_TRY(bt_sweep_run(&model, p->key, values, count, (int)study->campaign.threads,
+                        &bt_interrupted, &sweep, &diag));
     if (command->json)
         write_json(json, p, &sweep);
     else if (!command->quiet)
@@ -217,7 +217,10 @@ static bt_status run_plans(const bt_command* command, const bt_study* study, con
     bt_directory_close(&directory);
     if (status == BT_OK && !command->quiet && !command->json)
         printf("figures: %s\n", folder);
-    return status == BT_OK && failed > 0 ? BT_ERR_FAILED_RUNS : status;
+    if (status != BT_OK || failed == 0)
+        return status;
+    bt_say_error(command, "%d landing%s failed, as the table says", failed, failed == 1 ? "" : "s");
+    return BT_ERR_FAILED_RUNS;
 }
 
 static bt_status run(const bt_command* command) {

@@ -48,6 +48,33 @@ static void hook_attitude(double angle_rad, double e[4]) {
     e[2] = -sin(0.5 * angle_rad);
 }
 
+/// What is left of the aircraft's inertia once gear and hook are taken off must be the inertia of
+/// some mass: its second moments, (J_xx + J_zz - J_yy)/2 and so on, are those of a positive
+/// semidefinite matrix. With J_xy = J_yz = 0 that is
+/// sqrt((J_zz - J_xx)^2 + 4 J_xz^2) <= J_yy <= J_xx + J_zz, said of the aircraft's own J_yy.
+static bt_status check_inertia(const bt_aircraft_params* p, const double inertia[6],
+                               bt_diag* diag) {
+    const double xx = inertia[0], yy = inertia[1], zz = inertia[2], xz = inertia[4];
+    const double least = hypot(zz - xx, 2 * xz), most = xx + zz;
+    const double parts = p->inertia_yy_kgm2 - yy;
+    if (!(xx > 0 && zz > 0 && least < most)) {
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "aircraft.inertia_%s: %g kg m^2 leaves the fuselage none once gear and hook "
+                    "are taken off: inertia_xx above %g, inertia_zz above %g kg m^2, their "
+                    "excesses' product above inertia_xz^2",
+                    xx > 0 ? "zz" : "xx", xx > 0 ? p->inertia_zz_kgm2 : p->inertia_xx_kgm2,
+                    p->inertia_xx_kgm2 - xx, p->inertia_zz_kgm2 - zz);
+        return BT_ERR_INPUT;
+    }
+    if (yy >= least && yy <= most)
+        return BT_OK;
+    bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                "aircraft.inertia_yy: %g kg m^2 is outside %g .. %g kg m^2: with inertia_xx, "
+                "inertia_zz and the masses as they are, no fuselage has it",
+                p->inertia_yy_kgm2, least + parts, most + parts);
+    return BT_ERR_INPUT;
+}
+
 /// Mass, place and inertia of the fuselage: the whole aircraft less its parts.
 static bt_status add_fuselage(const bt_aircraft_params* p, const bt_body_def* parts, bt_airframe* f,
                               bt_diag* diag) {
@@ -86,6 +113,7 @@ static bt_status add_fuselage(const bt_aircraft_params* p, const bt_body_def* pa
     inertia[3] += mass * r[0] * r[1];
     inertia[4] += mass * r[0] * r[2];
     inertia[5] += mass * r[1] * r[2];
+    BT_TRY(check_inertia(p, inertia, diag));
 
     bt_body_def fuselage = {.name = bt_body_names[BT_BODY_FUSELAGE],
                             .mass_kg = mass,

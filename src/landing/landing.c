@@ -1,5 +1,7 @@
 #include "landing/landing.h"
 
+#include "base/clock.h"
+#include "base/hash.h"
 #include "elements/hook_damper_element.h"
 #include "elements/strut.h"
 #include "elements/wheel.h"
@@ -11,7 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /// Memory of one landing in flight: state and scratch of the airframe, model and states of the
 /// cable.
@@ -19,8 +20,9 @@ static const size_t arena_size = 900 * 1024;
 
 struct bt_lander {
     bt_arena arena;
-    size_t airframe_mark;  ///< of the arena: what follows belongs to the cable
-    bt_model_params built; ///< what airframe and cable, where there are any, were built from
+    const atomic_int* stop; ///< may be NULL
+    size_t airframe_mark;   ///< of the arena: what follows belongs to the cable
+    bt_model_params built;  ///< what airframe and cable, where there are any, were built from
     bool has_airframe, has_cable;
 
     bt_airframe airframe;
@@ -75,6 +77,14 @@ void bt_lander_destroy(bt_lander* lander) {
         bt_airframe_destroy(&lander->airframe);
     bt_arena_destroy(&lander->arena);
     free(lander);
+}
+
+void bt_lander_obey(bt_lander* lander, const atomic_int* stop) {
+    lander->stop = stop;
+}
+
+static bool stopped(const bt_lander* l) {
+    return l->stop && atomic_load_explicit(l->stop, memory_order_relaxed) != 0;
 }
 
 size_t bt_lander_memory(const bt_lander* lander) {
@@ -479,37 +489,28 @@ static bool step(run* r) {
     return true;
 }
 
-static uint64_t hash_bytes(uint64_t hash, const void* data, size_t size) {
-    const unsigned char* byte = data;
-    for (size_t i = 0; i < size; ++i)
-        hash = (hash ^ byte[i]) * UINT64_C(1099511628211);
-    return hash;
-}
-
 /// FNV-1a over the final state of airframe and cable.
 static uint64_t hash_state(const bt_lander* l) {
-    uint64_t hash = UINT64_C(14695981039346656037);
+    uint64_t hash = BT_HASH_START;
     const size_t count = (size_t)l->cable_model.count * sizeof(double);
-    hash = hash_bytes(hash, l->state.q, 7 * BT_BODY_COUNT * sizeof(double));
-    hash = hash_bytes(hash, l->state.v, 6 * BT_BODY_COUNT * sizeof(double));
-    hash = hash_bytes(hash, l->cable.x, count);
-    hash = hash_bytes(hash, l->cable.y, count);
-    return hash_bytes(hash, l->cable.z, count);
+    hash = bt_hash_bytes(hash, l->state.q, 7 * BT_BODY_COUNT * sizeof(double));
+    hash = bt_hash_bytes(hash, l->state.v, 6 * BT_BODY_COUNT * sizeof(double));
+    hash = bt_hash_bytes(hash, l->cable.x, count);
+    hash = bt_hash_bytes(hash, l->cable.y, count);
+    return bt_hash_bytes(hash, l->cable.z, count);
 }
 
-static double clock_s(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+bt_status bt_lander_prepare(bt_lander* lander, const bt_model_params* params, bt_diag* diag) {
+    BT_TRY(prepare_airframe(lander, params, diag));
+    const bt_status status = prepare_cable(lander, params, diag);
+    lander->built = *params; // also when the cable is refused: the airframe may be a new one
+    return status == BT_ERR_NUMERIC ? BT_ERR_INPUT : status; // no equilibrium: said in diag
 }
 
 bt_status bt_lander_run(bt_lander* lander, const bt_model_params* params, bt_landing_result* result,
                         bt_landing_observer* observer, void* user, bt_diag* diag) {
-    const double begin_s = clock_s();
-    BT_TRY(prepare_airframe(lander, params, diag));
-    const bt_status status = prepare_cable(lander, params, diag);
-    lander->built = *params; // also when the cable is refused: the airframe may be a new one
-    BT_TRY(status);
+    const double begin_s = bt_clock_s();
+    BT_TRY(bt_lander_prepare(lander, params, diag));
 
     run r = {.lander = lander,
              .params = params,
@@ -523,6 +524,8 @@ bt_status bt_lander_run(bt_lander* lander, const bt_model_params* params, bt_lan
     if (!sound)
         fail(&r, r.failure.where, r.failure.quantity, r.failure.time_s);
     while (sound && !over(&r)) {
+        if (stopped(lander))
+            return BT_ERR_INTERRUPTED;
         show(&r, observer, user, false);
         sound = step(&r);
     }
@@ -533,6 +536,6 @@ bt_status bt_lander_run(bt_lander* lander, const bt_model_params* params, bt_lan
     result->steps = lander->state.steps;
     result->end_time_s = lander->state.time_s;
     result->state_hash = hash_state(lander);
-    result->wall_s = clock_s() - begin_s;
+    result->wall_s = bt_clock_s() - begin_s;
     return BT_OK;
 }

@@ -7,7 +7,6 @@
 
 #include <ctype.h>
 #include <limits.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,87 +149,68 @@ static void follow(void* user, const bt_landing_view* view) {
 
 // --- landings ---------------------------------------------------------------------------------
 
-/// What the threads share: they take rows by number, and each row is written by one of them.
-typedef struct shared {
-    const bt_model_params* model;
-    size_t offset;
+/// A sweep on its way through the executor.
+typedef struct work {
     bt_sweep* sweep;
-    atomic_int next;
-    pthread_mutex_t lock;
-    bt_status status;
-    bt_diag* diag; ///< used under the lock
-} shared;
+    follower* followers; ///< [sweep->count]
+    int next;
+} work;
 
-/// Hands a thread's messages on, one at a time.
-static void report(void* user, bt_severity severity, bt_where where, const char* text) {
-    shared* s = user;
-    pthread_mutex_lock(&s->lock);
-    bt_diag_add(s->diag, severity, where, "%s", text);
-    pthread_mutex_unlock(&s->lock);
+static bool give(void* user, bt_job* job) {
+    work* w = user;
+    if (w->next == w->sweep->count)
+        return false;
+    job->run = w->next++;
+    job->x[0] = w->sweep->rows[job->run].value;
+    return true;
 }
 
-static bt_status run_row(shared* s, bt_lander* lander, bt_model_params* model, bt_sweep_row* row,
-                         bt_diag* diag) {
-    bt_field_set(s->sweep->field, model, s->offset, row->value);
-    follower f = {.path = &row->path};
-    if (bt_group_check(&bt_model_group, model, "", diag) != BT_OK)
-        return BT_ERR_INPUT;
-    BT_TRY(bt_lander_run(lander, model, &row->result, follow, &f, diag));
-    return f.full ? BT_ERR_MEMORY : BT_OK;
+static void* follower_of(void* user, const bt_job* job) {
+    const work* w = user;
+    return &w->followers[job->run];
 }
 
-static void* work(void* argument) {
-    shared* s = argument;
-    bt_diag diag = {.sink = report, .user = s};
-    bt_lander* lander = NULL;
-    bt_model_params* model = malloc(sizeof *model);
-    bt_status status = model ? bt_lander_create(&lander) : BT_ERR_MEMORY;
-    if (model)
-        *model = *s->model;
-    while (status == BT_OK) {
-        const int i = atomic_fetch_add(&s->next, 1);
-        if (i >= s->sweep->count)
-            break;
-        status = run_row(s, lander, model, &s->sweep->rows[i], &diag);
-    }
-    bt_lander_destroy(lander);
-    free(model);
-    pthread_mutex_lock(&s->lock);
-    if (s->status == BT_OK)
-        s->status = status;
-    pthread_mutex_unlock(&s->lock);
-    return NULL;
+static bt_status take(void* user, const bt_job* job, const bt_landing_result* result) {
+    const work* w = user;
+    w->sweep->rows[job->run].result = *result;
+    return w->followers[job->run].full ? BT_ERR_MEMORY : BT_OK;
 }
 
-/// Works on the calling thread and on as many more as asked for and possible.
-static bt_status run_rows(shared* s, int threads) {
-    pthread_t others[BT_SWEEP_VALUES_MAX];
-    int started = 0;
-    pthread_mutex_init(&s->lock, NULL);
-    const int wanted = bt_thread_count(threads);
-    while (started < wanted - 1 && started < s->sweep->count - 1 &&
-           pthread_create(&others[started], NULL, work, s) == 0)
-        ++started;
-    work(s);
-    for (int i = 0; i < started; ++i)
-        pthread_join(others[i], NULL);
-    pthread_mutex_destroy(&s->lock);
-    return s->status;
+static bt_status run_rows(const bt_model_params* model, size_t offset, int threads,
+                          const atomic_int* stop, work* w, bt_diag* diag) {
+    const bt_axes axes = {.count = 1};
+    const bt_input input = {.field = w->sweep->field, .offset = offset};
+    const bt_executor executor = {.model = model,
+                                  .inputs = &input,
+                                  .axes = &axes,
+                                  .threads = threads,
+                                  .stop = stop,
+                                  .source = give,
+                                  .sink = take,
+                                  .observer = follow,
+                                  .observed = follower_of,
+                                  .user = w};
+    return bt_executor_run(&executor, diag);
 }
 
 bt_status bt_sweep_run(const bt_model_params* model, const char* key, const double* values,
-                       int count, int threads, bt_sweep* sweep, bt_diag* diag) {
+                       int count, int threads, const atomic_int* stop, bt_sweep* sweep,
+                       bt_diag* diag) {
     *sweep = (bt_sweep){.count = count};
-    shared s = {.model = model, .sweep = sweep, .diag = diag};
+    size_t offset;
     if (count < 1 || count > BT_SWEEP_VALUES_MAX)
         return BT_ERR_ARG;
-    BT_TRY(bt_sweep_find(model, key, &sweep->field, &s.offset, diag));
+    BT_TRY(bt_sweep_find(model, key, &sweep->field, &offset, diag));
     sweep->rows = calloc((size_t)count, sizeof *sweep->rows);
-    if (!sweep->rows)
-        return BT_ERR_MEMORY;
-    for (int i = 0; i < count; ++i)
+    work w = {.sweep = sweep, .followers = calloc((size_t)count, sizeof *w.followers)};
+    bt_status status = sweep->rows && w.followers ? BT_OK : BT_ERR_MEMORY;
+    for (int i = 0; i < count && status == BT_OK; ++i) {
         sweep->rows[i].value = values[i];
-    const bt_status status = run_rows(&s, threads);
+        w.followers[i].path = &sweep->rows[i].path;
+    }
+    if (status == BT_OK)
+        status = run_rows(model, offset, threads, stop, &w, diag);
+    free(w.followers);
     if (status != BT_OK)
         bt_sweep_destroy(sweep);
     return status;

@@ -36,12 +36,13 @@ BT_CHECKED bt_status bt_sweep_values(const bt_field* field, const char* key, con
                                      double* values, int* count, bt_diag* diag);
 
 /// Runs one landing per value of the key, the rest as in `model` (which must be checked). The rows
-/// do not depend on the number of threads (0: one per core). A run that diverges is a row whose
-/// outcome is BT_FAILED. On BT_OK the caller owns the sweep (bt_sweep_destroy).
-/// BT_ERR_INPUT: a value that the model does not allow, said in diag; BT_ERR_MEMORY.
+/// do not depend on the number of threads (0: one per core). A run that diverges, and a value with
+/// which there can be no landing, is a row whose outcome is BT_FAILED. On BT_OK the caller owns the
+/// sweep (bt_sweep_destroy). `stop` may be NULL; see bt_executor. BT_ERR_INPUT: no such key, said
+/// in diag; BT_ERR_INTERRUPTED, BT_ERR_MEMORY.
 BT_CHECKED bt_status bt_sweep_run(const bt_model_params* model, const char* key,
-                                  const double* values, int count, int threads, bt_sweep* sweep,
-                                  bt_diag* diag);
+                                  const double* values, int count, int threads,
+                                  const atomic_int* stop, bt_sweep* sweep, bt_diag* diag);
 void bt_sweep_destroy(bt_sweep* sweep);
 
 #endif

@@ -1,83 +1,70 @@
 #include "reliability/high_fidelity.h"
 
-#include "base/tasks.h"
 #include "campaign/executor.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-/// What one thread needs for its landings.
-typedef struct seat {
-    bt_lander* lander;
-    bt_model_params model;
-} seat;
+#include <string.h>
 
 struct bt_high_fidelity {
     const bt_study* study;
     bt_axes inputs; ///< all of them
     int threads;
     const atomic_int* stop;
-    seat* seats;
 };
 
 bt_status bt_high_fidelity_create(const bt_study* study, int threads, const atomic_int* stop,
                                   bt_high_fidelity** truth) {
-    bt_high_fidelity* t = calloc(1, sizeof *t);
-    *truth = NULL;
+    bt_high_fidelity* t = *truth = calloc(1, sizeof *t);
     if (!t)
         return BT_ERR_MEMORY;
     t->study = study;
-    t->threads = bt_tasks_threads(threads);
+    t->threads = threads;
     t->stop = stop;
     t->inputs.count = study->input_count;
     for (int i = 0; i < study->input_count; ++i)
         t->inputs.input[i] = i;
-    t->seats = calloc((size_t)t->threads, sizeof *t->seats);
-    bt_status status = t->seats ? BT_OK : BT_ERR_MEMORY;
-    for (int i = 0; i < t->threads && status == BT_OK; ++i) {
-        t->seats[i].model = study->model;
-        status = bt_lander_create(&t->seats[i].lander);
-    }
-    if (status == BT_OK)
-        *truth = t;
-    else
-        bt_high_fidelity_destroy(t);
-    return status;
+    return BT_OK;
 }
 
 void bt_high_fidelity_destroy(bt_high_fidelity* truth) {
-    if (!truth)
-        return;
-    for (int i = 0; truth->seats && i < truth->threads; ++i)
-        bt_lander_destroy(truth->seats[i].lander);
-    free(truth->seats);
     free(truth);
 }
 
+/// Points on their way through the executor.
 typedef struct batch {
-    const bt_high_fidelity* truth;
     const double* x;
+    int dims, count, next;
     int* label;
 } batch;
 
-static bt_status run_point(void* user, int point, int worker) {
+static bool give(void* user, bt_job* job) {
+    batch* b = user;
+    if (b->next == b->count)
+        return false;
+    job->run = b->next++;
+    memcpy(job->x, b->x + job->run * b->dims, (size_t)b->dims * sizeof *job->x);
+    return true;
+}
+
+static bt_status take(void* user, const bt_job* job, const bt_landing_result* result) {
     const batch* b = user;
-    const bt_high_fidelity* t = b->truth;
-    if (t->stop && atomic_load(t->stop))
-        return BT_ERR_INTERRUPTED;
-    seat* s = &t->seats[worker];
-    const double* x = b->x + (size_t)point * (size_t)t->inputs.count;
-    bt_landing_result result;
-    BT_TRY(bt_landing_at(s->lander, &s->model, t->study->inputs, &t->inputs, x, &result, NULL, NULL,
-                         NULL));
-    b->label[point] = result.outcome == BT_FAILED ? -1 : result.outcome == BT_ENGAGED;
+    b->label[job->run] = result->outcome == BT_FAILED ? -1 : result->outcome == BT_ENGAGED;
     return BT_OK;
 }
 
 bt_status bt_high_fidelity_run(void* truth, const double* x, int n, int* label) {
     const bt_high_fidelity* t = truth;
-    batch b = {t, x, label};
-    return bt_tasks_run(t->threads, n, run_point, &b);
+    batch b = {.x = x, .dims = t->inputs.count, .count = n, .label = label};
+    const bt_executor executor = {.model = &t->study->model,
+                                  .inputs = t->study->inputs,
+                                  .axes = &t->inputs,
+                                  .threads = t->threads,
+                                  .stop = t->stop,
+                                  .source = give,
+                                  .sink = take,
+                                  .user = &b};
+    return bt_executor_run(&executor, NULL);
 }
 
 /* ---- the referee ---- */

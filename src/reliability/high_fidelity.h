@@ -13,7 +13,7 @@
 /// @param label  [n] 1 engaged, 0 missed, -1 failed (no outcome)
 typedef bt_status bt_high_fidelity_batch(void* user, const double* x, int n, int* label);
 
-/// Landings of a study's model on threads, one lander each. Same labels for any number of threads.
+/// Landings of a study's model through the executor. Same labels for any number of threads.
 typedef struct bt_high_fidelity bt_high_fidelity;
 
 /// @param threads  0: one per core
@@ -23,9 +23,9 @@ BT_CHECKED bt_status bt_high_fidelity_create(const bt_study* study, int threads,
                                              const atomic_int* stop, bt_high_fidelity** truth);
 void bt_high_fidelity_destroy(bt_high_fidelity* truth);
 
-/// A bt_high_fidelity_batch whose user is a bt_high_fidelity. A run that diverges, and a point
-/// outside what the model allows (a tail of its distribution), has no outcome: -1. Returns BT_OK,
-/// BT_ERR_INPUT (the landing cannot be assembled), BT_ERR_INTERRUPTED, BT_ERR_MEMORY.
+/// A bt_high_fidelity_batch whose user is a bt_high_fidelity. A run that diverges, and a point that
+/// the model does not allow or that cannot be assembled (a tail of its distribution), has no
+/// outcome: -1. Returns BT_OK, BT_ERR_INTERRUPTED, BT_ERR_MEMORY.
 BT_CHECKED bt_status bt_high_fidelity_run(void* truth, const double* x, int n, int* label);
 
 /// Direct Monte Carlo on the truth: the referee that needs no surrogate.

@@ -66,7 +66,7 @@ static bt_status run_task(void* user, int task, int worker) {
 bt_status bt_monte_carlo(const bt_sampler* sampler, const bt_classifier* classifier,
                          int64_t samples, int threads, const bt_pool* pool, bt_tally* tally) {
     *tally = (bt_tally){0};
-    threads = bt_tasks_threads(threads);
+    threads = bt_thread_count(threads);
     job j = {sampler, classifier, pool, samples, 0, calloc((size_t)threads, sizeof(scratch))};
     if (!j.scratch)
         return BT_ERR_MEMORY;

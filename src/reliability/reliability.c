@@ -1,19 +1,13 @@
 #include "reliability/reliability.h"
 
+#include "base/clock.h"
 #include "surrogate/predictor.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { POOL_MAX = 1000000, GATHER = 128 };
-
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- the surrogate as a classifier ---- */
 
@@ -166,7 +160,7 @@ bt_status bt_reliability_condition(const bt_sampler* sampler, const bt_classifie
                                    int64_t samples, int threads, bt_high_fidelity_batch* truth,
                                    void* truth_user, int truth_runs, double expected_error,
                                    bt_reliability_row* row) {
-    const double begun_s = now_s();
+    const double begun_s = bt_clock_s();
     clear_row(row);
     const bool checked = truth && truth_runs > 0;
     bt_pool pool = {.count = samples < POOL_MAX ? (int)samples : POOL_MAX};
@@ -194,7 +188,7 @@ bt_status bt_reliability_condition(const bt_sampler* sampler, const bt_classifie
     free(check.picked);
     free(pool.label);
     free(pool.decision);
-    row->seconds = now_s() - begun_s;
+    row->seconds = bt_clock_s() - begun_s;
     return status;
 }
 
@@ -231,7 +225,7 @@ static double expected_error(const bt_surrogate* surrogate) {
 bt_status bt_reliability_run(const bt_study* study, const bt_surrogate* surrogate,
                              const bt_reliability_options* options, bt_reliability_result* result,
                              bt_diag* diag) {
-    const double begun_s = now_s();
+    const double begun_s = bt_clock_s();
     const bt_reliability_params* params = &study->reliability;
     const int total = study->condition_count + 1;
     const int runs = params->truth_runs < POOL_MAX ? (int)params->truth_runs : POOL_MAX;
@@ -262,6 +256,6 @@ bt_status bt_reliability_run(const bt_study* study, const bt_surrogate* surrogat
             options->watch(options->watch_user, c + 1, total);
     }
     bt_surrogate_classifier_destroy(classifier);
-    result->seconds = now_s() - begun_s;
+    result->seconds = bt_clock_s() - begun_s;
     return status;
 }

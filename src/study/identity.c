@@ -1,5 +1,6 @@
 #include "study/identity.h"
 
+#include "base/hash.h"
 #include "base/text.h"
 
 #include <stdio.h>
@@ -121,8 +122,5 @@ char* bt_study_identity(const bt_study* study) {
 }
 
 uint64_t bt_study_identity_hash(const char* identity) {
-    uint64_t hash = UINT64_C(0xcbf29ce484222325);
-    for (; *identity; ++identity)
-        hash = (hash ^ (unsigned char)*identity) * UINT64_C(0x100000001b3);
-    return hash;
+    return bt_hash_bytes(BT_HASH_START, identity, strlen(identity));
 }

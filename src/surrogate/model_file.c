@@ -1,6 +1,7 @@
 #include "surrogate/surrogate.h"
 
 #include "base/directory.h"
+#include "base/hash.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -26,10 +27,7 @@
 enum { VERSION = 1, NUMBER_SIZE = 32, WORD_MAX = BT_INPUT_MAX + 8 };
 
 static uint64_t checksum(const char* data, size_t size) {
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < size; ++i)
-        hash = (hash ^ (unsigned char)data[i]) * 0x100000001b3u;
-    return hash;
+    return bt_hash_bytes(BT_HASH_START, data, size);
 }
 
 /* ---- writing ---- */

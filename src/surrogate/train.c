@@ -1,32 +1,22 @@
+#include "base/clock.h"
+#include "base/hash.h"
 #include "surrogate/predictor.h"
 #include "surrogate/training.h"
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 // LIBSVM's stopping tolerance for the classifier that is kept: on the slopes of the dual, where the
 // margin is 1.
 static const double final_tolerance = 1e-3;
 
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /// FNV-1a over dims, count, inputs and labels.
 static uint64_t hash_set(const bt_training_set* set) {
-    uint64_t hash = 0xcbf29ce484222325u;
-#define MIX(data, size)                                                                            \
-    for (size_t b = 0; b < (size); ++b)                                                            \
-    hash = (hash ^ ((const unsigned char*)(data))[b]) * 0x100000001b3u
-    MIX(&set->dims, sizeof set->dims);
-    MIX(&set->count, sizeof set->count);
-    MIX(set->x, (size_t)set->count * (size_t)set->dims * sizeof *set->x);
-    MIX(set->label, (size_t)set->count * sizeof *set->label);
-#undef MIX
-    return hash;
+    const size_t count = (size_t)set->count;
+    uint64_t hash = bt_hash_bytes(BT_HASH_START, &set->dims, sizeof set->dims);
+    hash = bt_hash_bytes(hash, &set->count, sizeof set->count);
+    hash = bt_hash_bytes(hash, set->x, count * (size_t)set->dims * sizeof *set->x);
+    return bt_hash_bytes(hash, set->label, count * sizeof *set->label);
 }
 
 /// Right answers among n landings of the list; the classifier takes standardised points.
@@ -107,7 +97,7 @@ static void take_scaling(const bt_training* t, const double* weight, bt_surrogat
 bt_status bt_surrogate_fit(const bt_training_set* set, const bt_hyperparameters* chosen,
                            double holdout, uint64_t seed, bt_surrogate* out, bt_diag* diag) {
     *out = (bt_surrogate){0};
-    const double begun_s = now_s();
+    const double begun_s = bt_clock_s();
     bt_training t;
     bt_status status = bt_training_create(set, holdout, seed, &t, diag);
     if (status == BT_OK) {
@@ -122,7 +112,7 @@ bt_status bt_surrogate_fit(const bt_training_set* set, const bt_hyperparameters*
         out->scores.cv_count = chosen->cv_count;
         out->scores.cv_correct = chosen->cv_correct;
         out->training_hash = hash_set(set);
-        out->scores.seconds = now_s() - begun_s;
+        out->scores.seconds = bt_clock_s() - begun_s;
     } else {
         bt_surrogate_destroy(out);
     }
@@ -134,10 +124,10 @@ bt_status bt_surrogate_train(const bt_training_set* set, const bt_surrogate_para
                              uint64_t seed, int threads, bt_surrogate* out, bt_grid* grid,
                              bt_diag* diag) {
     *out = (bt_surrogate){0};
-    const double begun_s = now_s();
+    const double begun_s = bt_clock_s();
     bt_hyperparameters chosen;
     BT_TRY(bt_surrogate_select(set, params, params->holdout, seed, threads, &chosen, grid, diag));
     BT_TRY(bt_surrogate_fit(set, &chosen, params->holdout, seed, out, diag));
-    out->scores.seconds = now_s() - begun_s;
+    out->scores.seconds = bt_clock_s() - begun_s;
     return BT_OK;
 }

@@ -173,7 +173,7 @@ static void any_run_repeats_alone_to_the_bit(void** state) {
         bt_landing_result result;
         assert_int_equal(bt_ledger_get(ledger, 17 + 60 * k, &row, NULL), BT_OK);
         assert_int_equal(
-            bt_landing_at(lander, model, study.inputs, &axes, row.x, &result, NULL, NULL, NULL),
+            bt_landing_at(lander, model, study.inputs, &axes, row.x, &result, NULL, NULL),
             BT_OK);
         assert_true(result.state_hash == row.result.state_hash);
         assert_memory_equal(&result.margin_m, &row.result.margin_m, sizeof result.margin_m);
@@ -194,7 +194,7 @@ static void a_point_outside_what_the_model_allows_is_a_failed_run_with_the_key(v
     assert_int_equal(bt_lander_create(&lander), BT_OK);
     const double x[4] = {3.6, -47.5, 0.05, 6};
     assert_int_equal(
-        bt_landing_at(lander, model, study.inputs, &axes, x, &result, NULL, NULL, NULL), BT_OK);
+        bt_landing_at(lander, model, study.inputs, &axes, x, &result, NULL, NULL), BT_OK);
     assert_int_equal(result.outcome, BT_FAILED);
     assert_string_equal(result.failed_element, "landing.horizontal_speed");
     bt_lander_destroy(lander);

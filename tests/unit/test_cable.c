@@ -124,7 +124,7 @@ static void model_refuses_what_cannot_be_computed(void** state) {
     caught c = {""};
     bt_diag diag = {.sink = keep_text, .user = &c};
     assert_int_equal(bt_cable_model_init(&model, &def, &arena, &diag), BT_ERR_INPUT);
-    assert_string_equal(c.text, "cable: the segment length cannot be used");
+    assert_string_equal(c.text, "deck.cable: the segment length cannot be used");
     length[3] = 0.1;
     def.count = 1;
     assert_int_equal(bt_cable_model_init(&model, &def, &arena, &diag), BT_ERR_INPUT);

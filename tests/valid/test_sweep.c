@@ -22,7 +22,7 @@ static bt_sweep sweep_of(const bt_model_params* model, const char* key, const ch
     bt_sweep sweep;
     if (bt_sweep_find(model, key, &field, &offset, &diag) != BT_OK ||
         bt_sweep_values(field, key, list, values, &count, &diag) != BT_OK ||
-        bt_sweep_run(model, key, values, count, threads, &sweep, &diag) != BT_OK)
+        bt_sweep_run(model, key, values, count, threads, NULL, &sweep, &diag) != BT_OK)
         fail_msg("%s", kept.text);
     return sweep;
 }
