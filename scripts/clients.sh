@@ -42,4 +42,5 @@ run drop_test studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv
 "$scratch/static" studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv >"$scratch/a"
 "$scratch/shared" studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv >"$scratch/b"
 cmp "$scratch/a" "$scratch/b"
+run campaign "$study" 64 "$scratch/campaign" 2>/dev/null
 echo "clients: every example built against the installed library and ran"

@@ -14,10 +14,12 @@
 #ifndef BOLTER_BOLTER_H
 #define BOLTER_BOLTER_H
 
+#include "bolter/campaign.h"
 #include "bolter/landing.h"
 #include "bolter/rig.h"
 #include "bolter/status.h"
 #include "bolter/study.h"
+#include "bolter/surrogate.h"
 #include "bolter/version.h"
 
 #endif

@@ -75,6 +75,10 @@ BT_PUBLIC BT_CHECKED bt_status bt_case_set_text(bt_case* opened, const char* pat
 BT_PUBLIC const char* bt_case_title(const bt_case* opened);
 BT_PUBLIC const char* bt_case_directory(const bt_case* opened);
 
+/// Puts the study directory (ledger, classifier, results) elsewhere; it is made when it is needed.
+/// BT_ERR_ARG: the path is too long.
+BT_PUBLIC BT_CHECKED bt_status bt_case_set_directory(bt_case* opened, const char* path);
+
 /// The whole study as one YAML text with every key: aircraft and deck included, changes by
 /// bt_case_set_text applied. Valid as above.
 BT_PUBLIC const char* bt_case_text(const bt_case* opened);

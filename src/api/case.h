@@ -4,7 +4,8 @@
 
 #include "bolter/study.h"
 
-#include "study/study.h"
+#include "bolter/landing.h"
+#include "surrogate/surrogate.h"
 
 #include <string.h>
 
@@ -20,6 +21,10 @@ struct bt_case {
     char** sets; ///< [set_count] "PATH=VALUE", owned
     bt_message* message;
     void* user;
+    bool landed;            ///< last holds a landing
+    bt_landing_result last; ///< of bt_case_land
+    bool fitted;            ///< surrogate holds one
+    bt_surrogate surrogate; ///< of bt_case_fit
 };
 
 /// Copies what a caller of any version has filled in of a definition that begins with its size; the
@@ -31,6 +36,9 @@ static inline bool bt_def_copy(void* to, size_t known, const void* from, size_t 
     memcpy(to, from, size < known ? size : known);
     return size >= sizeof size;
 }
+
+/// The public report of a landing, as much of it as the caller knows. False: its size is missing.
+bool bt_case_report(const bt_landing_result* result, bt_landing_report* report);
 
 /// Diagnostics that reach the case's message function as finished lines.
 bt_diag bt_case_diag(const bt_case* opened);

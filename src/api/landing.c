@@ -1,36 +1,99 @@
 #include "bolter/landing.h"
 
 #include "api/case.h"
+#include "base/units.h"
 
+#include <math.h>
 #include <stdio.h>
+
+bool bt_case_report(const bt_landing_result* result, bt_landing_report* report) {
+    bt_landing_report full = {
+        .size = report->size,
+        .failed = result->outcome == BT_FAILED,
+        .engaged = result->outcome == BT_ENGAGED,
+        .retained = result->retained,
+        .margin_m = result->margin_m,
+        .throat_force_peak_N = result->throat_force_peak_N,
+        .hook_deck_force_peak_N = result->hook_deck_force_peak_N,
+        .cable_tension_max_N = result->cable_tension_max_N,
+        .bounces = result->bounce_count,
+        .state_hash = result->state_hash,
+    };
+    snprintf(full.mode, sizeof full.mode, "%s", bt_mode_name(result->mode));
+    if (result->bounce_count > 0) {
+        full.first_bounce_height_m = result->bounces[0].height_m;
+        full.first_bounce_distance_m = result->bounces[0].distance_m;
+    }
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        full.strut_stroke_max_m[leg] = result->strut_stroke_max_m[leg];
+        full.tyre_force_max_N[leg] = result->tyre_force_max_N[leg];
+    }
+    if (full.failed)
+        snprintf(full.failure, sizeof full.failure, "%s: %s at %g s", result->failed_element,
+                 result->failed_quantity, result->failed_time_s);
+    bt_remarks_print(&result->remarks, full.remarks, sizeof full.remarks);
+    if (report->size < sizeof report->size)
+        return false;
+    memcpy(report, &full, report->size < sizeof full ? report->size : sizeof full);
+    return true;
+}
 
 bt_status bt_case_land(bt_case* opened, bt_landing_report* report) {
     bt_diag diag = bt_case_diag(opened);
-    bt_landing_result result;
-    *report = (bt_landing_report){0};
+    opened->landed = false;
+    if (report->size < sizeof report->size)
+        return BT_ERR_ARG;
     BT_TRY(bt_group_check(&bt_model_group, &opened->study.model, "", &diag));
-    BT_TRY(bt_lander_run(opened->lander, &opened->study.model, &result, NULL, NULL, &diag));
+    BT_TRY(bt_lander_run(opened->lander, &opened->study.model, &opened->last, NULL, NULL, &diag));
+    opened->landed = true;
+    return bt_case_report(&opened->last, report) ? BT_OK : BT_ERR_ARG;
+}
 
-    report->failed = result.outcome == BT_FAILED;
-    report->engaged = result.outcome == BT_ENGAGED;
-    report->retained = result.retained;
-    snprintf(report->mode, sizeof report->mode, "%s", bt_mode_name(result.mode));
-    report->margin_m = result.margin_m;
-    report->throat_force_peak_N = result.throat_force_peak_N;
-    report->hook_deck_force_peak_N = result.hook_deck_force_peak_N;
-    report->cable_tension_peak_N = result.cable_tension_max_N;
-    report->bounces = result.bounce_count;
-    if (result.bounce_count > 0) {
-        report->first_bounce_height_m = result.bounces[0].height_m;
-        report->first_bounce_distance_m = result.bounces[0].distance_m;
+void bt_results(bt_result_visit* visit, void* user) {
+    for (int i = 0; i < bt_result_column_count; ++i) {
+        const bt_result_column* column = &bt_result_columns[i];
+        const bt_result_info info = {
+            .name = column->name,
+            .unit = bt_unit_text(*column->unit ? column->unit : "1"),
+            .text = column->text,
+        };
+        if (!visit(user, &info))
+            return;
     }
-    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
-        report->strut_stroke_max_m[leg] = result.strut_stroke_max_m[leg];
-        report->tyre_force_max_N[leg] = result.tyre_force_max_N[leg];
+}
+
+/// A column that is a number; NULL for texts, hashes and what does not exist.
+static const bt_result_column* number(const char* name) {
+    for (int i = 0; i < bt_result_column_count; ++i)
+        if (strcmp(bt_result_columns[i].name, name) == 0)
+            return &bt_result_columns[i];
+    return NULL;
+}
+
+bt_status bt_case_result(const bt_case* opened, const char* name, double* value) {
+    const bt_result_column* column = number(name);
+    if (!column || !opened->landed)
+        return BT_ERR_ARG;
+    const char* member = (const char*)&opened->last + column->offset;
+    switch (column->kind) {
+    case BT_RESULT_REAL:
+        *value = bt_result_real(column, &opened->last);
+        return BT_OK;
+    case BT_RESULT_FLAG:
+        *value = *(const bool*)member;
+        return BT_OK;
+    case BT_RESULT_INT:
+        *value = *(const int*)(const void*)member;
+        return BT_OK;
+    case BT_RESULT_COUNT:
+        *value = (double)*(const int64_t*)(const void*)member;
+        return BT_OK;
+    case BT_RESULT_OUTCOME:
+    case BT_RESULT_MODE:
+    case BT_RESULT_TEXT:
+    case BT_RESULT_REMARKS:
+    case BT_RESULT_HASH:
+        break;
     }
-    report->state_hash = result.state_hash;
-    if (report->failed)
-        snprintf(report->failure, sizeof report->failure, "%s: %s at %g s", result.failed_element,
-                 result.failed_quantity, result.failed_time_s);
-    return BT_OK;
+    return BT_ERR_ARG;
 }

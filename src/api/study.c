@@ -49,6 +49,8 @@ void bt_case_close(bt_case* opened) {
     if (!opened)
         return;
     bt_lander_destroy(opened->lander);
+    if (opened->fitted)
+        bt_surrogate_destroy(&opened->surrogate);
     bt_study_destroy(&opened->study);
     drop_sets(opened);
     free(opened->name);
@@ -240,8 +242,17 @@ bt_status bt_case_set_text(bt_case* opened, const char* path, const char* value)
         bt_study_destroy(&read);
         return status;
     }
+    memcpy(read.directory, opened->study.directory, sizeof read.directory);
     bt_study_destroy(&opened->study);
     opened->study = read;
+    return BT_OK;
+}
+
+bt_status bt_case_set_directory(bt_case* opened, const char* path) {
+    bt_study* study = &opened->study;
+    if (strlen(path) >= sizeof study->directory)
+        return BT_ERR_ARG;
+    snprintf(study->directory, sizeof study->directory, "%s", path);
     return BT_OK;
 }
 

@@ -1,7 +1,9 @@
 /// The public interface: open, change, land.
+#define _GNU_SOURCE
 #include "near.h"
 
 #include "bolter/bolter.h"
+#include "toy_study.h"
 
 static const char reference[] = "studies/reference/study.yaml";
 
@@ -19,7 +21,7 @@ static bt_case* open_reference(void) {
 static void a_case_lands_and_lands_again_with_the_same_bits(void** state) {
     (void)state;
     bt_case* c = open_reference();
-    bt_landing_report first, second;
+    bt_landing_report first = {.size = sizeof first}, second = {.size = sizeof second};
     assert_int_equal(bt_case_land(c, &first), BT_OK);
     assert_int_equal(bt_case_land(c, &second), BT_OK);
     assert_false(first.failed);
@@ -38,7 +40,7 @@ static void a_number_that_is_set_is_the_number_that_lands(void** state) {
     assert_int_equal(bt_case_set(c, "landing.sink_speed", 5.0), BT_OK);
     assert_int_equal(bt_case_get(c, "landing.sink_speed", &value), BT_OK);
     assert_true(value == 5.0);
-    bt_landing_report slow, fast;
+    bt_landing_report slow = {.size = sizeof slow}, fast = {.size = sizeof fast};
     assert_int_equal(bt_case_land(c, &fast), BT_OK);
     assert_int_equal(bt_case_set(c, "landing.sink_speed", 3.0), BT_OK);
     assert_int_equal(bt_case_land(c, &slow), BT_OK);
@@ -66,7 +68,7 @@ static void numbers_that_describe_no_hook_are_refused_with_the_reason(void** sta
     bt_case* c = NULL;
     assert_int_equal(bt_case_open(reference, NULL, 0, keep_last, said, &c), BT_OK);
     assert_int_equal(bt_case_set(c, "aircraft.hook.profile.throat_radius", 0.01), BT_OK);
-    bt_landing_report report;
+    bt_landing_report report = {.size = sizeof report};
     assert_int_equal(bt_case_land(c, &report), BT_ERR_INPUT);
     assert_non_null(strstr(said, "throat_radius"));
     bt_case_close(c);
@@ -131,7 +133,7 @@ static void a_model_needs_no_file(void** state) {
     (void)state;
     bt_case* c = NULL;
     double mass = 0;
-    bt_landing_report report;
+    bt_landing_report report = {.size = sizeof report};
     assert_int_equal(bt_case_open_defaults("mine.yaml", NULL, NULL, &c), BT_OK);
     assert_int_equal(bt_case_set(c, "aircraft.mass", 21000), BT_OK);
     assert_int_equal(bt_case_get(c, "aircraft.mass", &mass), BT_OK);
@@ -202,8 +204,117 @@ static void a_rig_gives_its_metrics_and_histories(void** state) {
     bt_case_close(c);
 }
 
+static void the_numbers_of_a_landing_are_asked_for_by_name(void** state) {
+    (void)state;
+    bt_case* c = open_reference();
+    double value = 0;
+    bt_landing_report report = {.size = sizeof report};
+    assert_int_equal(bt_case_result(c, "margin_m", &value), BT_ERR_ARG);
+    assert_int_equal(bt_case_land(c, &report), BT_OK);
+    assert_int_equal(bt_case_result(c, "margin_m", &value), BT_OK);
+    assert_true(value == report.margin_m);
+    assert_int_equal(bt_case_result(c, "strut_stroke_max_left_m", &value), BT_OK);
+    assert_true(value == report.strut_stroke_max_m[1] && value > 0.1);
+    assert_int_equal(bt_case_result(c, "mode", &value), BT_ERR_ARG);
+    assert_int_equal(bt_case_result(c, "margin_mm", &value), BT_ERR_ARG);
+    bt_landing_report sizeless = {0};
+    assert_int_equal(bt_case_land(c, &sizeless), BT_ERR_ARG);
+    bt_case_close(c);
+}
+
+static bool count_result(void* user, const bt_result_info* info) {
+    assert_true(info->name[0] && info->text[0] && info->unit);
+    ++*(int*)user;
+    return true;
+}
+
+static void an_older_client_gets_what_it_knows(void** state) {
+    (void)state;
+    bt_case* c = open_reference();
+    bt_landing_report report;
+    memset(&report, 0x5a, sizeof report);
+    report.size = offsetof(bt_landing_report, margin_m);
+    assert_int_equal(bt_case_land(c, &report), BT_OK);
+    assert_true(report.engaged && !report.failed);
+    const unsigned char* beyond = (const unsigned char*)&report.margin_m;
+    assert_int_equal(*beyond, 0x5a);
+    int count = 0;
+    bt_results(count_result, &count);
+    assert_in_range(count, 20, 60);
+    bt_case_close(c);
+}
+
+enum { RUNS = 48 };
+
+static bool stop_after(void* user, const bt_campaign_counts* counts) {
+    return counts->done < *(int64_t*)user;
+}
+
+typedef struct ledger_sum {
+    int rows, engaged;
+    int64_t last;
+} ledger_sum;
+
+static bool sum_row(void* user, const bt_campaign_row* row) {
+    ledger_sum* sum = user;
+    assert_int_equal(row->input_count, 4);
+    assert_string_equal(row->inputs[0], "landing.sink_speed");
+    assert_true(row->values[0] > 0.5 && row->values[0] < 7);
+    assert_true(row->run > sum->last);
+    sum->last = row->run;
+    ++sum->rows;
+    sum->engaged += row->report.engaged;
+    return true;
+}
+
+static void a_campaign_runs_stops_goes_on_and_is_read_and_fitted(void** state) {
+    (void)state;
+    char* folder = toy_directory();
+    char path[FOLDER_SIZE + 8];
+    bt_case* c = open_reference();
+    snprintf(path, sizeof path, "%s/study", folder);
+    assert_int_equal(bt_case_set_directory(c, path), BT_OK);
+    assert_int_equal(bt_case_set_text(c, "campaign.samples", "48"), BT_OK);
+    assert_int_equal(bt_case_set_text(c, "deck.cable.mesh.medium_length", "0.3 m"), BT_OK);
+    assert_int_equal(bt_case_set_text(c, "deck.cable.mesh.fine_length", "0.2 m"), BT_OK);
+    assert_string_equal(bt_case_directory(c), path);
+
+    int64_t enough = 1;
+    bt_campaign_counts counts;
+    const bt_campaign_def short_run = {
+        .size = sizeof short_run, .progress = stop_after, .user = &enough};
+    const bt_campaign_def whole = {.size = sizeof whole};
+    assert_int_equal(bt_case_campaign(c, &short_run, &counts), BT_ERR_INTERRUPTED);
+    assert_true(counts.done >= 1 && counts.total == RUNS);
+    assert_int_equal(bt_case_campaign(c, &whole, &counts), BT_OK);
+    assert_true(counts.done == RUNS && counts.before >= 1);
+
+    ledger_sum sum = {.last = -1};
+    assert_int_equal(bt_case_ledger(c, sum_row, &sum), BT_OK);
+    assert_int_equal(sum.rows, RUNS);
+    assert_int_equal(sum.engaged, (int)counts.engaged);
+
+    const bt_fit_def fit = {.size = sizeof fit};
+    bt_fit_report report = {.size = sizeof report};
+    double point[4] = {3.6, 47.5, 0.052, 5.5}, decision = 0;
+    assert_int_equal(bt_case_predict(c, point, 1, &decision), BT_ERR_ARG);
+    assert_int_equal(bt_case_fit(c, &fit, &report), BT_OK);
+    assert_true(report.trained_now && report.train_count + report.holdout_count == RUNS);
+    assert_int_equal(bt_case_fit_inputs(c), 4);
+    assert_string_equal(bt_case_fit_input(c, 3), "landing.distance");
+    assert_int_equal(bt_case_predict(c, point, 1, &decision), BT_OK);
+    assert_true(decision > 0);
+    assert_int_equal(bt_case_fit(c, &fit, &report), BT_OK);
+    assert_false(report.trained_now);
+    bt_case_close(c);
+    toy_directory_remove(folder);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_numbers_of_a_landing_are_asked_for_by_name),
+        cmocka_unit_test(an_older_client_gets_what_it_knows),
+        cmocka_unit_test(a_campaign_runs_stops_goes_on_and_is_read_and_fitted),
         cmocka_unit_test(the_library_is_of_the_version_of_its_headers),
         cmocka_unit_test(a_text_changes_any_key_and_numbers_set_before_stay),
         cmocka_unit_test(a_model_needs_no_file),
