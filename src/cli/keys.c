@@ -1,4 +1,5 @@
 #include "cli/cli.h"
+#include "report/result_keys.h"
 
 #include <stdio.h>
 
@@ -8,11 +9,16 @@ static void print(void* user, const char* text) {
 }
 
 static bt_status run(const bt_command* command) {
-    if (command->json)
+    const bool results = command->option[1] != NULL;
+    if (results && command->option[0])
+        return bt_usage_error(command, "--defaults and --results are two things");
+    if (command->json && !results)
         return bt_usage_error(command, "there is no --json form of the keys");
     if (command->set_count > 0)
         return bt_usage_error(command, "there is no study here that --set could change");
     BT_TRY(bt_refuse_output(command));
+    if (results)
+        return command->json ? bt_result_keys_json(stdout) : bt_result_keys_markdown(stdout);
     if (command->option[0])
         bt_study_defaults(print, NULL);
     else
@@ -22,6 +28,8 @@ static bt_status run(const bt_command* command) {
 
 static const struct argp_option options[] = {
     {"defaults", BT_OPTION, 0, 0, "write a complete commented study with every default", 1},
+    {"results", BT_OPTION + 1, 0, 0,
+     "list what a landing gives instead: results, modes, remarks, histories", 1},
     {0},
 };
 

@@ -6,6 +6,7 @@
 #include "calibration/simulated_case.h"
 #include "landing/result.h"
 #include "report/landing_report.h"
+#include "report/result_keys.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -97,6 +98,26 @@ static void the_rows_fill_the_struct(void** state) {
         }
     assert_true(bytes <= sizeof(bt_landing_result));
     assert_true(sizeof(bt_landing_result) - bytes < 8 * 8); // no more than padding
+}
+
+static void every_row_is_in_the_reference(void** state) {
+    (void)state;
+    char* text = NULL;
+    size_t size = 0;
+    FILE* out = open_memstream(&text, &size);
+    assert_int_equal(bt_result_keys_markdown(out), BT_OK);
+    assert_int_equal(bt_result_keys_json(out), BT_OK);
+    fclose(out);
+    for (int i = 0; i < bt_result_column_count; ++i) {
+        char row[320], member[96];
+        const bt_result_column* c = &bt_result_columns[i];
+        snprintf(row, sizeof row, "| %s | %s | %s |\n", c->name,
+                 *c->unit ? bt_unit_text(c->unit) : "", c->text);
+        snprintf(member, sizeof member, "\"name\": \"%s\"", c->name);
+        if (!strstr(text, row) || !strstr(text, member))
+            fail_msg("%s is not in the reference", c->name);
+    }
+    free(text);
 }
 
 static bool is_landing_metric(const char* name, const char* token) {
@@ -197,6 +218,7 @@ int main(void) {
         cmocka_unit_test(every_row_has_one_name_a_known_unit_and_a_meaning),
         cmocka_unit_test(the_rows_fill_the_struct),
         cmocka_unit_test(every_row_is_in_the_json),
+        cmocka_unit_test(every_row_is_in_the_reference),
         cmocka_unit_test(every_number_is_a_metric),
         cmocka_unit_test(a_bounce_that_never_was_has_no_metric),
         cmocka_unit_test(a_remark_keeps_its_first_time_and_reads_back),
