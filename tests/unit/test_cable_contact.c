@@ -195,6 +195,27 @@ static void the_wheels_force_is_the_same_wherever_the_joints_lie(void** state) {
     assert_true(first > 1e3);
 }
 
+/// A locked wheel drags with mu times what it presses, on segments as fine as one likes: beyond
+/// BT_SLIDES_MAX slices they are resolved in groups.
+static void a_locked_wheel_drags_the_rope_with_coulombs_force(void** state) {
+    (void)state;
+    const bt_tyre tyre = main_tyre();
+    static const int counts[] = {80, 800, BT_CABLE_SEGMENTS_MAX};
+    assert_true(0.292 / 4 * BT_CABLE_SEGMENTS_MAX > BT_SLIDES_MAX);
+    for (int k = 0; k < 3; ++k) {
+        rope r;
+        lay(&r, counts[k], 4, 0.05);
+        bt_wheel_contact contact = wheel_contact(&tyre);
+        bt_moving_body wheel = body_at(0, 0.1, tyre.radius + 0.03);
+        wheel.velocity_mps[0] = 47.5;
+        bt_moving_body_to(&wheel, 0);
+        press_wheel(&contact, &r, &wheel);
+        BT_ASSERT_NEAR(wheel.impulse_Ns[0] / step_s, -0.2 * contact.normal_N, 1e-9, 0);
+        assert_opposite(&r, &wheel, step_s);
+        rope_close(&r);
+    }
+}
+
 /* ---- hook ---- */
 
 static bt_profile head(void) {
@@ -440,6 +461,7 @@ int main(void) {
         cmocka_unit_test(deck_and_cable_together_carry_the_load_of_the_curve),
         cmocka_unit_test(a_bump_ahead_of_the_axle_holds_the_wheel_back),
         cmocka_unit_test(the_wheels_force_is_the_same_wherever_the_joints_lie),
+        cmocka_unit_test(a_locked_wheel_drags_the_rope_with_coulombs_force),
         cmocka_unit_test(the_hook_and_the_cable_push_equally_and_oppositely),
         cmocka_unit_test(stiffness_times_depth_times_width),
         cmocka_unit_test(friction_is_its_share_of_the_normal_force_and_against_the_sliding),
