@@ -133,6 +133,7 @@ static bt_status run_variant(noise* n, const bt_noise_variant* variant, bt_diag*
     bt_noise_difference difference;
     BT_TRY(bt_noise_run(&n->study, variant, n->count, (int)n->study.campaign.threads,
                         &bt_interrupted, landings, diag));
+    BT_TRY(bt_noise_check_failed(&n->study, landings, n->count, diag));
     BT_TRY(bt_noise_compare(n->base, landings, n->count, &difference));
     print_row(n, variant, &difference);
     if (variant && n->command->option[OPTION_FLIPS])

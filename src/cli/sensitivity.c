@@ -32,13 +32,6 @@ typedef struct table {
     bt_noise_landing *base, *other;
 } table;
 
-static double engaged_share(const bt_noise_landing* landings, int64_t count) {
-    int64_t engaged = 0;
-    for (int64_t i = 0; i < count; ++i)
-        engaged += landings[i].outcome == BT_ENGAGED;
-    return (double)engaged / (double)count;
-}
-
 static double mean_move(const bt_noise_landing* from, const bt_noise_landing* to, int64_t count) {
     double sum = 0;
     int64_t both = 0;
@@ -72,7 +65,7 @@ static bt_status measure_end(table* t, effect* e, int side, bt_diag* diag) {
     bt_noise_difference difference;
     BT_TRY(run_landings(t, t->other, diag));
     BT_TRY(bt_noise_compare(t->base, t->other, t->count, &difference));
-    e->engaged[side] = engaged_share(t->other, t->count);
+    e->engaged[side] = bt_noise_engaged_share(t->other, t->count);
     e->margin_m[side] = mean_move(t->base, t->other, t->count);
     e->flips += difference.flips;
     return BT_OK;
@@ -246,6 +239,7 @@ static bt_status run_table(table* t, double place_m, bt_json* json, bt_diag* dia
     if (held)
         (void)set_key(&t->study, "landing.distance", place_m);
     BT_TRY(run_landings(t, t->base, diag));
+    BT_TRY(bt_noise_check_failed(&t->study, t->base, t->count, diag));
     bt_progress progress = bt_progress_start("sensitivity", t->command->quiet);
     for (int i = 0; i < t->effect_count; ++i) {
         bt_progress_show(&progress, false, "%d of %d keys", i, t->effect_count);
@@ -253,7 +247,7 @@ static bt_status run_table(table* t, double place_m, bt_json* json, bt_diag* dia
     }
     bt_progress_show(&progress, true, "%d of %d keys", t->effect_count, t->effect_count);
     qsort(t->effects, (size_t)t->effect_count, sizeof *t->effects, strongest_first);
-    const double base = engaged_share(t->base, t->count);
+    const double base = bt_noise_engaged_share(t->base, t->count);
     if (json && held)
         bt_json_begin_object(json, NULL);
     if (json && held)

@@ -1,6 +1,7 @@
 #include "pipeline/noise.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,6 +54,9 @@ static bt_status take(void* user, const bt_job* job, const bt_landing_result* re
                                   .margin_m = result->margin_m,
                                   .wall_s = result->wall_s};
     memcpy(landing->x, job->x, sizeof landing->x);
+    if (result->outcome == BT_FAILED)
+        snprintf(landing->failure, sizeof landing->failure, "%s: %s", result->failed_element,
+                 result->failed_quantity);
     return BT_OK;
 }
 
@@ -95,6 +99,33 @@ bt_status bt_noise_run(const bt_study* given, const bt_noise_variant* variant, i
     const bt_status status = run(study, count, threads, stop, landings, diag);
     free(study);
     return status;
+}
+
+bt_status bt_noise_check_failed(const bt_study* study, const bt_noise_landing* landings,
+                                int64_t count, bt_diag* diag) {
+    int64_t failed = 0;
+    const char* first = "";
+    for (int64_t i = count - 1; i >= 0; --i)
+        if (landings[i].outcome == BT_FAILED) {
+            ++failed;
+            first = landings[i].failure;
+        }
+    if ((double)failed <= study->campaign.max_failed * (double)count)
+        return BT_OK;
+    bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                "%lld of %lld landings failed, more than campaign.max_failed = %g allows; the "
+                "first: %s",
+                (long long)failed, (long long)count, study->campaign.max_failed, first);
+    return BT_ERR_FAILED_RUNS;
+}
+
+double bt_noise_engaged_share(const bt_noise_landing* landings, int64_t count) {
+    int64_t engaged = 0, known = 0;
+    for (int64_t i = 0; i < count; ++i) {
+        engaged += landings[i].outcome == BT_ENGAGED;
+        known += landings[i].outcome != BT_FAILED;
+    }
+    return known > 0 ? (double)engaged / (double)known : NAN;
 }
 
 static int ascending(const void* a, const void* b) {

@@ -29,6 +29,7 @@ typedef struct bt_noise_landing {
     bt_mode mode;
     double margin_m, wall_s;
     double x[BT_INPUT_MAX]; ///< its inputs, SI
+    char failure[160];      ///< "key: reason" of a failed one
 } bt_noise_landing;
 
 /// Runs `count` landings drawn from the study's distributions (`uncertainty:`), keyed by the seed
@@ -43,6 +44,14 @@ typedef struct bt_noise_landing {
 BT_CHECKED bt_status bt_noise_run(const bt_study* study, const bt_noise_variant* variant,
                                   int64_t count, int threads, const atomic_int* stop,
                                   bt_noise_landing* landings, bt_diag* diag);
+
+/// Whether no more landings failed than campaign.max_failed allows. BT_ERR_FAILED_RUNS, said in
+/// diag with the first of their reasons.
+BT_CHECKED bt_status bt_noise_check_failed(const bt_study* study, const bt_noise_landing* landings,
+                                           int64_t count, bt_diag* diag);
+
+/// The share engaged of those that have an outcome; NAN when none has.
+double bt_noise_engaged_share(const bt_noise_landing* landings, int64_t count);
 
 /// What two runs of the same landings differ in.
 typedef struct bt_noise_difference {
