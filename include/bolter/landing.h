@@ -46,10 +46,43 @@ typedef struct bt_result_info {
 typedef bool bt_result_visit(void* user, const bt_result_info* info);
 BT_PUBLIC void bt_results(bt_result_visit* visit, void* user);
 
-/// A number of the last landing of bt_case_land by its name; flags are 0 or 1; NAN where there is
-/// none. BT_ERR_ARG: no such number, or no landing yet.
+/// A number of the last landing of bt_case_land by its name. Flags are 0 or 1; outcome is 1
+/// engaged, 0 missed, NAN failed; mode is a place in bt_mode_label; NAN where there is none.
+/// BT_ERR_ARG: no such number, or no landing yet.
 BT_PUBLIC BT_CHECKED bt_status bt_case_result(const bt_case* opened, const char* name,
                                               double* value);
+
+/// The name of a mode by its number ("ridden_over"); NULL beyond the last. Static.
+BT_PUBLIC const char* bt_mode_label(int mode);
+
+/// Called a few times a second on the thread of the call with the landings that are done; false:
+/// no more begin, and the call returns BT_ERR_INTERRUPTED.
+typedef bool bt_batch_progressed(void* user, int64_t done, int64_t count);
+
+/// A table of landings. Set size to sizeof(bt_batch_def); arrays belong to the caller.
+typedef struct bt_batch_def {
+    size_t size;
+    int path_count;
+    const char* const* paths; ///< [path_count] numeric keys of the model, each once
+    int64_t count;
+    const double* points; ///< [count * path_count] row-major, SI
+    int column_count;
+    const char* const* columns; ///< [column_count] names of results, as bt_case_result takes them
+    int threads;                ///< 0: one per core that the process may use
+    bt_batch_progressed* progress; ///< may be NULL
+    void* user;
+} bt_batch_def;
+
+/// Runs one landing per row of points on all cores; other keys are the case's. The same values for
+/// any number of threads. Rows that cannot be landed (a value outside what the model allows, a
+/// landing that diverges) are failed ones, not errors.
+///
+/// @param values  [count * column_count] row-major: receives the results; NAN where there is none,
+///                and in rows that were not run when the call was stopped
+/// @return BT_OK; BT_ERR_ARG (an unknown path or column, said; no size); BT_ERR_INPUT (the model of
+///         the case has a fault of its own, said); BT_ERR_INTERRUPTED, BT_ERR_MEMORY
+BT_PUBLIC BT_CHECKED bt_status bt_case_land_batch(bt_case* opened, const bt_batch_def* def,
+                                                  double* values);
 
 #ifdef __cplusplus
 }

@@ -40,6 +40,13 @@ static inline bool bt_def_copy(void* to, size_t known, const void* from, size_t 
 /// The public report of a landing, as much of it as the caller knows. False: its size is missing.
 bool bt_case_report(const bt_landing_result* result, bt_landing_report* report);
 
+/// A numeric key of the model by its path; NULL when there is none, which is said in diag.
+const bt_field* bt_case_number(const bt_case* c, const char* path, size_t* offset, bt_diag* diag);
+
+/// A result that is a number, by its name; NULL when there is none.
+const bt_result_column* bt_case_column(const char* name);
+double bt_case_column_value(const bt_result_column* column, const bt_landing_result* result);
+
 /// Diagnostics that reach the case's message function as finished lines.
 bt_diag bt_case_diag(const bt_case* opened);
 

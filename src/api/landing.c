@@ -62,38 +62,48 @@ void bt_results(bt_result_visit* visit, void* user) {
     }
 }
 
-/// A column that is a number; NULL for texts, hashes and what does not exist.
-static const bt_result_column* number(const char* name) {
-    for (int i = 0; i < bt_result_column_count; ++i)
-        if (strcmp(bt_result_columns[i].name, name) == 0)
+const char* bt_mode_label(int mode) {
+    return mode >= 0 && mode < BT_MODE_COUNT ? bt_mode_name((bt_mode)mode) : NULL;
+}
+
+const bt_result_column* bt_case_column(const char* name) {
+    for (int i = 0; i < bt_result_column_count; ++i) {
+        const bt_result_kind kind = bt_result_columns[i].kind;
+        const bool number =
+            kind != BT_RESULT_TEXT && kind != BT_RESULT_REMARKS && kind != BT_RESULT_HASH;
+        if (number && strcmp(bt_result_columns[i].name, name) == 0)
             return &bt_result_columns[i];
+    }
     return NULL;
 }
 
-bt_status bt_case_result(const bt_case* opened, const char* name, double* value) {
-    const bt_result_column* column = number(name);
-    if (!column || !opened->landed)
-        return BT_ERR_ARG;
-    const char* member = (const char*)&opened->last + column->offset;
+double bt_case_column_value(const bt_result_column* column, const bt_landing_result* result) {
+    const char* member = (const char*)result + column->offset;
     switch (column->kind) {
     case BT_RESULT_REAL:
-        *value = bt_result_real(column, &opened->last);
-        return BT_OK;
+        return bt_result_real(column, result);
     case BT_RESULT_FLAG:
-        *value = *(const bool*)member;
-        return BT_OK;
+        return *(const bool*)member;
     case BT_RESULT_INT:
-        *value = *(const int*)(const void*)member;
-        return BT_OK;
+        return *(const int*)(const void*)member;
     case BT_RESULT_COUNT:
-        *value = (double)*(const int64_t*)(const void*)member;
-        return BT_OK;
+        return (double)*(const int64_t*)(const void*)member;
     case BT_RESULT_OUTCOME:
+        return result->outcome == BT_FAILED ? NAN : result->outcome == BT_ENGAGED;
     case BT_RESULT_MODE:
+        return result->mode;
     case BT_RESULT_TEXT:
     case BT_RESULT_REMARKS:
     case BT_RESULT_HASH:
         break;
     }
-    return BT_ERR_ARG;
+    return NAN;
+}
+
+bt_status bt_case_result(const bt_case* opened, const char* name, double* value) {
+    const bt_result_column* column = bt_case_column(name);
+    if (!column || !opened->landed)
+        return BT_ERR_ARG;
+    *value = bt_case_column_value(column, &opened->last);
+    return BT_OK;
 }

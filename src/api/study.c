@@ -150,13 +150,11 @@ static bool is_number(const bt_field* field) {
            field->kind == BT_FIELD_COUNT;
 }
 
-/// A numeric key by its path; NULL when there is none, which is said.
-static const bt_field* number(const bt_case* c, const char* path, size_t* offset) {
-    bt_diag diag = bt_case_diag(c);
+const bt_field* bt_case_number(const bt_case* c, const char* path, size_t* offset, bt_diag* diag) {
     const bt_field* field = bt_params_find(&bt_model_group, &c->study.model, path, offset);
     if (field && is_number(field))
         return field;
-    bt_diag_add(&diag, BT_ERROR, BT_NOWHERE, "%s: %s", path,
+    bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "%s: %s", path,
                 field ? "is not a number; use bt_case_set_text" : "no such key");
     return NULL;
 }
@@ -189,11 +187,11 @@ static bt_status remember(bt_case* c, const char* path, const char* value) {
 bt_status bt_case_set(bt_case* opened, const char* path, double value) {
     size_t offset;
     char text[128];
-    const bt_field* field = number(opened, path, &offset);
+    bt_diag diag = bt_case_diag(opened);
+    const bt_field* field = bt_case_number(opened, path, &offset, &diag);
     if (!field)
         return BT_ERR_ARG;
     if (!(value >= field->least && value <= field->greatest)) {
-        bt_diag diag = bt_case_diag(opened);
         bt_diag_add(&diag, BT_ERROR, BT_NOWHERE, "%s: %g is outside %g .. %g %s", path, value,
                     field->least, field->greatest, bt_unit_text(field->unit));
         return BT_ERR_ARG;
@@ -206,7 +204,8 @@ bt_status bt_case_set(bt_case* opened, const char* path, double value) {
 
 bt_status bt_case_get(const bt_case* opened, const char* path, double* value) {
     size_t offset;
-    const bt_field* field = number(opened, path, &offset);
+    bt_diag diag = bt_case_diag(opened);
+    const bt_field* field = bt_case_number(opened, path, &offset, &diag);
     if (!field)
         return BT_ERR_ARG;
     *value = bt_field_get(field, &opened->study.model, offset);

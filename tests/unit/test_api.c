@@ -215,10 +215,52 @@ static void the_numbers_of_a_landing_are_asked_for_by_name(void** state) {
     assert_true(value == report.margin_m);
     assert_int_equal(bt_case_result(c, "strut_stroke_max_left_m", &value), BT_OK);
     assert_true(value == report.strut_stroke_max_m[1] && value > 0.1);
-    assert_int_equal(bt_case_result(c, "mode", &value), BT_ERR_ARG);
+    assert_int_equal(bt_case_result(c, "state_hash", &value), BT_ERR_ARG);
     assert_int_equal(bt_case_result(c, "margin_mm", &value), BT_ERR_ARG);
     bt_landing_report sizeless = {0};
     assert_int_equal(bt_case_land(c, &sizeless), BT_ERR_ARG);
+    bt_case_close(c);
+}
+
+static void a_table_of_landings_is_the_same_as_one_at_a_time(void** state) {
+    (void)state;
+    enum { N = 6 };
+    static const char* const paths[] = {"landing.distance", "landing.pitch"};
+    static const char* const columns[] = {"outcome", "margin_m", "mode", "bounce_count"};
+    const double points[N][2] = {{2, 0.05}, {4, 0.05}, {5.5, 0.02}, {8, 0.0524}, {6, 9}, {3, 0.1}};
+    double values[N][4], again[N][4];
+    char said[256] = "";
+    bt_case* c = NULL;
+    assert_int_equal(bt_case_open(reference, NULL, 0, keep_last, said, &c), BT_OK);
+    bt_batch_def def = {.size = sizeof def,
+                        .path_count = 2,
+                        .paths = paths,
+                        .count = N,
+                        .points = points[0],
+                        .column_count = 4,
+                        .columns = columns,
+                        .threads = 2};
+    assert_int_equal(bt_case_land_batch(c, &def, values[0]), BT_OK);
+    def.threads = 1;
+    assert_int_equal(bt_case_land_batch(c, &def, again[0]), BT_OK);
+    assert_memory_equal(values, again, sizeof values);
+    for (int i = 0; i < N; ++i) {
+        if (i == 4) { // a pitch of 9 rad: no landing, and no error
+            assert_true(isnan(values[i][0]) && isnan(values[i][1]));
+            continue;
+        }
+        bt_landing_report report = {.size = sizeof report};
+        assert_int_equal(bt_case_set(c, paths[0], points[i][0]), BT_OK);
+        assert_int_equal(bt_case_set(c, paths[1], points[i][1]), BT_OK);
+        assert_int_equal(bt_case_land(c, &report), BT_OK);
+        assert_true(values[i][0] == report.engaged && values[i][1] == report.margin_m);
+        assert_string_equal(bt_mode_label((int)values[i][2]), report.mode);
+        assert_int_equal((int)values[i][3], report.bounces);
+    }
+    def.columns = (const char* const[]){"outcom", "margin_m", "mode", "bounce_count"};
+    assert_int_equal(bt_case_land_batch(c, &def, values[0]), BT_ERR_ARG);
+    assert_non_null(strstr(said, "outcom"));
+    assert_null(bt_mode_label(99));
     bt_case_close(c);
 }
 
@@ -312,6 +354,7 @@ static void a_campaign_runs_stops_goes_on_and_is_read_and_fitted(void** state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_table_of_landings_is_the_same_as_one_at_a_time),
         cmocka_unit_test(the_numbers_of_a_landing_are_asked_for_by_name),
         cmocka_unit_test(an_older_client_gets_what_it_knows),
         cmocka_unit_test(a_campaign_runs_stops_goes_on_and_is_read_and_fitted),
