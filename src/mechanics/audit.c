@@ -58,6 +58,34 @@ void bt_system_audit(const bt_system* system, const bt_state* state, bt_audit* a
         audit->velocity_residual = fmax(audit->velocity_residual, velocity_error(system, state, j));
 }
 
+double bt_system_body_energy(const bt_system* system, const bt_state* state, int body,
+                             const double frame_mps[3]) {
+    const bt_body* b = &system->bodies[body];
+    const double* v = state->v + 6 * body;
+    double spin[3], along[3] = {v[0], v[1], v[2]};
+    bt_add_scaled(along, -1, frame_mps);
+    bt_rotate(b->inertia, v + 3, spin);
+    return 0.5 * (b->mass_kg * bt_dot(along, along) + bt_dot(v + 3, spin));
+}
+
+double bt_system_element_power(const bt_system* system, const bt_state* state, int element,
+                               const double frame_mps[3], double* wrench) {
+    enum { OUTPUTS_MAX = 16 };
+    const bt_element* e = &system->elements[element].element;
+    const bt_motion motion = {state->time_s, state->q, state->v, state->rotation};
+    const int ends[2] = {e->body_a, e->body_b};
+    double output[OUTPUTS_MAX], power = 0;
+    memset(wrench, 0, 6 * (size_t)system->body_count * sizeof *wrench);
+    e->type->force(e, &motion, wrench, output);
+    for (int end = 0; end < 2; ++end) {
+        if (ends[end] == BT_GROUND)
+            continue;
+        const double *w = wrench + 6 * ends[end], *v = state->v + 6 * ends[end];
+        power += bt_dot(w, v) - bt_dot(w, frame_mps) + bt_dot(w + 3, v + 3);
+    }
+    return power;
+}
+
 void bt_system_joint_load(const bt_system* system, const bt_state* state, int joint,
                           double force_N[3], double torque_Nm[3]) {
     const bt_joint* j = &system->joints[joint];

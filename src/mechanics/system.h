@@ -234,6 +234,16 @@ typedef struct bt_audit {
 } bt_audit;
 void bt_system_audit(const bt_system* system, const bt_state* state, bt_audit* audit);
 
+/// Kinetic energy of one body seen from a frame that moves along, J.
+double bt_system_body_energy(const bt_system* system, const bt_state* state, int body,
+                             const double frame_mps[3]);
+
+/// Power that an element puts into the bodies, W, seen from a frame that moves along at a constant
+/// velocity: minus what it stores and dissipates.
+/// @param wrench  [6 * body_count] work space
+double bt_system_element_power(const bt_system* system, const bt_state* state, int element,
+                               const double frame_mps[3], double* wrench);
+
 /// Force and torque that joint `joint` puts on its body b at the joint point, world frame, from
 /// the multipliers of the last evaluation.
 void bt_system_joint_load(const bt_system* system, const bt_state* state, int joint,

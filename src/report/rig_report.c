@@ -154,6 +154,8 @@ void bt_rig_print(FILE* out, const bt_rig_result* result, const bt_rig_record* r
             "error", "tolerance", "accepted");
     for (int i = 0; i < result->metric_count; ++i)
         print_metric(out, &result->metrics[i]);
+    for (int i = 0; i < result->remark_count; ++i)
+        fprintf(out, "remark: %s at %.4g s\n", result->remarks[i].what, result->remarks[i].time_s);
     for (int i = 0; i < curves->count; ++i) {
         const bt_measured* m = curves->measured[i];
         double rms, share;
@@ -203,6 +205,15 @@ void bt_rig_write_json(bt_json* json, const bt_rig_result* result, const bt_rig_
     for (int i = 0; i < result->metric_count; ++i)
         write_metric(json, &result->metrics[i]);
     bt_json_end_object(json);
+    bt_json_begin_array(json, "remarks");
+    for (int i = 0; i < result->remark_count; ++i) {
+        bt_json_begin_object(json, NULL);
+        bt_json_string(json, "what", result->remarks[i].what);
+        bt_json_string(json, "element", result->remarks[i].element);
+        bt_json_number(json, "time_s", result->remarks[i].time_s);
+        bt_json_end_object(json);
+    }
+    bt_json_end_array(json);
     bt_json_begin_array(json, "curves");
     for (int i = 0; i < curves->count; ++i) {
         double rms, share;

@@ -19,7 +19,6 @@ typedef struct drop_rig {
 
 static void add_bodies(const bt_gear_params* gear, const bt_drop_params* drop, double stroke_m,
                        drop_rig* d) {
-    bt_system* system = d->rig.system;
     const double axle = gear->tyre.radius_m, unsprung = gear->piston_mass_kg + gear->wheel_mass_kg;
     const double sprung = drop->mass_kg - unsprung,
                  across = bt_wheel_inertia_across(gear->wheel_inertia_kgm2);
@@ -42,7 +41,7 @@ static void add_bodies(const bt_gear_params* gear, const bt_drop_params* drop, d
         bt_body_def body = bodies[i];
         body.attitude[0] = 1;
         body.velocity_mps[2] = -d->sink_mps;
-        bt_system_add_body(system, &body);
+        bt_rig_add_body(&d->rig, &body);
     }
 }
 
@@ -160,7 +159,7 @@ static void report(const bt_drop_params* drop, const record* r, const drop_rig* 
                    bt_rig_result* result) {
     const bt_drop_reference_params* ref = &drop->reference;
     const double tyre_J = bt_tyre_energy(&d->tyre, r->most[TYRE]);
-    *result = (bt_rig_result){.steps = d->rig.state.steps, .end_time_s = d->rig.state.time_s};
+    bt_rig_result_begin(&d->rig, result);
     bt_rig_add(result, "stroke_max_m", "m", r->most[STROKE], ref->stroke_max_m,
                accepted(ref, ref->stroke_max_tolerance));
     bt_rig_add(result, "sinkage_max_m", "m", r->most[SINKAGE], ref->sinkage_max_m,
@@ -181,6 +180,8 @@ static void report(const bt_drop_params* drop, const record* r, const drop_rig* 
                accepted(ref, ref->tyre_energy_tolerance));
     bt_rig_add(result, "tyre_efficiency", "1", tyre_J / (r->most[TYRE_FORCE] * r->most[TYRE]),
                ref->tyre_efficiency, accepted(ref, ref->tyre_efficiency_tolerance));
+    bt_rig_add_energy(&d->rig, result, 2, (const int[]){d->strut, d->wheel},
+                      (const char* const[]){"strut_taken_J", "tyre_taken_J"});
 }
 
 /// Slope of the friction over the rate where it changes sign, if the next step may lead there:
@@ -228,14 +229,14 @@ static double next_step(const bt_drop_params* drop, const drop_rig* d, double st
 static bt_status run(const bt_gear_params* gear, const bt_drop_params* drop, drop_rig* d,
                      bt_rig_result* result) {
     BT_TRY(build(gear, drop, d));
-    BT_TRY(bt_rig_evaluate(&d->rig));
+    d->rig.state.applied[6 * BODY_MASS + 2] = d->lift_N;
+    BT_TRY(bt_rig_begin(&d->rig));
     record r = {.spin_up_s = NAN};
     double channel[BT_DROP_CHANNELS], last_rate = 0;
     look(d, channel);
     bt_rig_show(&d->rig, BT_DROP_CHANNELS, bt_drop_channels, channel);
     while (d->rig.state.time_s < drop->duration_s - 1e-6 * drop->step_s) {
         const double left = drop->duration_s - d->rig.state.time_s;
-        d->rig.state.applied[6 * BODY_MASS + 2] = d->lift_N;
         const double rate = channel[STROKE_RATE];
         const double step =
             next_step(drop, d, channel[STROKE], rate, last_rate, stiffness(drop, d, channel));

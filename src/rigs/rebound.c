@@ -56,7 +56,7 @@ static const bt_element_type buffer_type = {
 typedef struct rebound_rig {
     bt_rig rig;
     bt_shoe shoe_contact;
-    int shoe, damper;
+    int shoe, damper, buffer;
     double lift_N;
     double start_x_m; ///< of the head's lowest point
 } rebound_rig;
@@ -139,7 +139,7 @@ static void add_bodies(const bt_hook_params* hook, const bt_rebound_params* p, d
     for (int i = 0; i < 3; ++i) {
         bodies[i].velocity_mps[0] = p->rim_speed_mps;
         bodies[i].velocity_mps[2] = i == BODY_CARRIAGE ? 0 : -p->sink_speed_mps;
-        bt_system_add_body(r->rig.system, &bodies[i]);
+        bt_rig_add_body(&r->rig, &bodies[i]);
     }
 }
 
@@ -198,7 +198,7 @@ static void add_elements(const bt_hook_params* hook, const bt_hook_damper* dampe
     add_element(system, &bt_yaw_damper_element, "yaw_damper", BODY_BASKET, BODY_HOOK, &yaw);
     r->shoe =
         add_element(system, &bt_shoe_type, "hook_shoe", BODY_HOOK, BT_GROUND, &r->shoe_contact);
-    add_element(system, &buffer_type, "buffer", BODY_BASKET, BT_GROUND, &under);
+    r->buffer = add_element(system, &buffer_type, "buffer", BODY_BASKET, BT_GROUND, &under);
 }
 
 static bt_status build(const bt_hook_params* hook, const bt_rebound_params* p, rebound_rig* r) {
@@ -238,18 +238,25 @@ static void look(const rebound_rig* r, double basket_start_m, double channel[BT_
 typedef struct bounce {
     bool airborne, complete;
     double impact_N, height_m, damper_m;
-    double rebound_mps; ///< fastest rise of the head's lowest point after the impact
-    double last_height_m, last_time_s, from_x_m, to_x_m;
+    double rebound_mps; ///< rise of the head's lowest point where it left the disc
+    double last_height_m, last_rate_mps, from_x_m, to_x_m;
 } bounce;
 
-static void follow(bounce* b, double time_s, const double channel[BT_REBOUND_CHANNELS]) {
+/// Speed where the height was zero, between two states of which only the first is below it.
+static double leaving_speed(const bounce* b, double height_m, double rate_mps) {
+    const double share = -b->last_height_m / (height_m - b->last_height_m);
+    return b->last_rate_mps + share * (rate_mps - b->last_rate_mps);
+}
+
+static void follow(bounce* b, double rate_mps, const double channel[BT_REBOUND_CHANNELS]) {
     b->damper_m = fmax(b->damper_m, channel[DAMPER_STROKE]);
-    const double rise = (channel[HEIGHT] - b->last_height_m) / (time_s - b->last_time_s);
-    b->last_height_m = channel[HEIGHT];
-    b->last_time_s = time_s;
+    const double height = channel[HEIGHT];
+    if (!b->airborne && b->last_height_m < 0 && height >= 0)
+        b->rebound_mps = leaving_speed(b, height, rate_mps);
+    b->last_height_m = height;
+    b->last_rate_mps = rate_mps;
     if (!b->airborne) {
         b->impact_N = fmax(b->impact_N, channel[FORCE]);
-        b->rebound_mps = fmax(b->rebound_mps, rise);
         b->airborne = channel[HEIGHT] > chatter_m;
         if (channel[FORCE] > 0)
             b->from_x_m = channel[X];
@@ -265,13 +272,16 @@ static void report(const bt_rebound_params* p, const bounce* b, const rebound_ri
     const bt_rebound_reference_params* ref = &p->reference;
     const double height = b->complete ? b->height_m : NAN;
     const double distance = b->complete ? b->to_x_m - b->from_x_m : NAN;
-    *result = (bt_rig_result){.steps = r->rig.state.steps, .end_time_s = r->rig.state.time_s};
+    bt_rig_result_begin(&r->rig, result);
     bt_rig_add(result, "rebound_height_m", "m", height, ref->rebound_height_m, ref->tolerance);
     bt_rig_add(result, "bounce_distance_m", "m", distance, ref->bounce_distance_m, ref->tolerance);
     bt_rig_add(result, "impact_force_N", "N", b->impact_N, ref->impact_force_N, ref->tolerance);
     bt_rig_add(result, "damper_stroke_max_m", "m", b->damper_m, ref->damper_stroke_max_m,
                ref->tolerance);
-    bt_rig_add(result, "restitution", "1", b->rebound_mps / p->sink_speed_mps, 0, 0);
+    bt_rig_add(result, "restitution", "1", b->airborne ? b->rebound_mps / p->sink_speed_mps : NAN,
+               0, 0);
+    bt_rig_add_energy(&r->rig, result, 3, (const int[]){r->damper, r->buffer, r->shoe},
+                      (const char* const[]){"damper_taken_J", "buffer_taken_J", "disc_taken_J"});
 }
 
 /// Long steps in the air, short ones at the disc and when it may be reached within two.
@@ -283,7 +293,9 @@ static double next_step(const bt_rebound_params* p, const bounce* b, double sink
 static bt_status run(const bt_hook_params* hook, const bt_rebound_params* p, rebound_rig* r,
                      bt_rig_result* result) {
     BT_TRY(build(hook, p, r));
-    BT_TRY(bt_rig_evaluate(&r->rig));
+    r->rig.frame_mps[0] = p->rim_speed_mps;
+    r->rig.state.applied[6 * BODY_BASKET + 2] = r->lift_N;
+    BT_TRY(bt_rig_begin(&r->rig));
     const double basket_start = r->rig.state.q[7 * BODY_BASKET + 2];
     bounce b = {0};
     double channel[BT_REBOUND_CHANNELS];
@@ -292,11 +304,10 @@ static bt_status run(const bt_hook_params* hook, const bt_rebound_params* p, reb
     double sink = p->sink_speed_mps;
     while (r->rig.state.time_s < p->duration_s && !b.complete) {
         const double before = channel[HEIGHT], step = next_step(p, &b, sink);
-        r->rig.state.applied[6 * BODY_BASKET + 2] = r->lift_N;
         BT_TRY(bt_rig_step(&r->rig, step));
         look(r, basket_start, channel);
         sink = (before - channel[HEIGHT]) / step;
-        follow(&b, r->rig.state.time_s, channel);
+        follow(&b, bt_rig_output(&r->rig, r->shoe)[BT_SHOE_RATE], channel);
         bt_rig_show(&r->rig, BT_REBOUND_CHANNELS, bt_rebound_channels, channel);
     }
     report(p, &b, r, result);

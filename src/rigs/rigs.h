@@ -111,11 +111,20 @@ typedef struct bt_metric {
     bool accepted;        ///< no reference, or an error within its tolerance
 } bt_metric;
 
-enum { BT_METRIC_MAX = 12 };
+enum { BT_METRIC_MAX = 20, BT_RIG_REMARK_MAX = 8 };
+
+/// What an element had to say of its state: the part was at the end of its range.
+typedef struct bt_rig_remark {
+    char element[24]; ///< "strut"
+    const char* what; ///< "strut bottomed"
+    double time_s;    ///< when first
+} bt_rig_remark;
 
 typedef struct bt_rig_result {
     int metric_count;
     bt_metric metrics[BT_METRIC_MAX];
+    int remark_count;
+    bt_rig_remark remarks[BT_RIG_REMARK_MAX];
     int64_t steps;
     double end_time_s;
 } bt_rig_result;
@@ -151,12 +160,17 @@ BT_CHECKED bt_status bt_rig_run(bt_rig_kind kind, const bt_aircraft_params* airc
 /// (work done on the strut until its largest stroke); tyre_energy_J (most that the tyre stores);
 /// tyre_efficiency (that energy over its peak load times compression).
 ///
+/// Energy balance, all over the whole run: impact_energy_J (kinetic, at touchdown) + weight_work_J
+/// (weight less lift, on the way) = strut_taken_J + tyre_taken_J (stored or dissipated; the tyre's
+/// less what a belt gives) + left_J (kinetic, at the end) + energy_residual_J (error of the
+/// integration).
+///
 /// @param gear      checked parameters of the leg (station and track do not matter here)
 /// @param drop      checked parameters of the test
 /// @param result    filled when BT_OK is returned
 /// @param observer  may be NULL
 /// @return BT_OK; BT_ERR_INPUT when the drop mass is not above that of the leg, BT_ERR_NUMERIC when
-///         the motion diverges (both said in diag); BT_ERR_MEMORY
+///         the motion diverges or an element leaves its law (all said in diag); BT_ERR_MEMORY
 ///
 /// Tests: test_rigs.c, test_gear_drop.c.
 BT_CHECKED bt_status bt_rig_run_drop(const bt_gear_params* gear, const bt_drop_params* drop,
@@ -184,8 +198,11 @@ BT_CHECKED bt_status bt_rig_run_static(const bt_gear_params* gear, const bt_stat
 /// instead, which is the same motion seen from the rim.
 ///
 /// Metrics: rebound_height_m and bounce_distance_m of the first bounce (NAN when the run ends in
-/// the air), impact_force_N (peak of the first impact), damper_stroke_max_m, restitution (rebound
-/// over impact speed of the head's lowest point).
+/// the air), impact_force_N (peak of the first impact), damper_stroke_max_m, restitution (speed of
+/// the head's lowest point when it leaves the disc for the first bounce over that at impact).
+/// Energy balance as for the drop, seen by somebody who moves along with the rim's speed:
+/// impact_energy_J + weight_work_J = damper_taken_J + buffer_taken_J + disc_taken_J (the hook's
+/// contact; less what the disc gives by friction) + left_J + energy_residual_J.
 ///
 /// Arguments and errors as bt_rig_run_drop.
 BT_CHECKED bt_status bt_rig_run_rebound(const bt_hook_params* hook,

@@ -18,15 +18,15 @@ static double load(const bt_oleo* oleo, double stroke_m, double speed_mps, doubl
     return gas + oil + bt_oleo_limit_force(oleo, stroke_m, rate) + friction;
 }
 
-typedef struct press {
+typedef struct static_test {
     bt_oleo oleo;
     double speed_mps, step_m;
     double value[BT_STATIC_CHANNELS];
     double extended_N, work_J, given_back_J;
-} press;
+} static_test;
 
 /// One point of the press; what lies since the last one is added to the work.
-static void advance(press* p, int64_t i) {
+static void advance(static_test* p, int64_t i) {
     const double stroke = (double)i * p->step_m;
     const double closing = load(&p->oleo, stroke, p->speed_mps, 1);
     const double opening = load(&p->oleo, stroke, p->speed_mps, -1);
@@ -47,7 +47,7 @@ bt_status bt_rig_run_static(const bt_gear_params* gear, const bt_static_params* 
     const double stroke = params->stroke_m > 0 ? params->stroke_m : gear->oleo.stroke_max_m;
     const bt_static_reference_params* ref = &params->reference;
     const bt_rig rig = {.observer = observer, .user = user};
-    press p = {.speed_mps = params->speed_mps, .step_m = stroke / (double)params->points};
+    static_test p = {.speed_mps = params->speed_mps, .step_m = stroke / (double)params->points};
     bt_oleo_prepare(&gear->oleo, &p.oleo);
     if (!isfinite(bt_oleo_gas_force(&p.oleo, stroke))) {
         bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "stroke: no gas volume is left at %g m", stroke);
@@ -59,6 +59,10 @@ bt_status bt_rig_run_static(const bt_gear_params* gear, const bt_static_params* 
                        p.value);
     }
     *result = (bt_rig_result){.steps = params->points, .end_time_s = stroke / p.speed_mps};
+    const char* what = NULL;
+    if (bt_oleo_law(&p.oleo, stroke, &what) == BT_LAW_AT_LIMIT)
+        result->remarks[result->remark_count++] = (bt_rig_remark){
+            .element = "strut", .what = what, .time_s = p.oleo.stops.stroke_max / p.speed_mps};
     bt_rig_add(result, "load_extended_N", "N", p.extended_N, ref->load_extended_N, ref->tolerance);
     bt_rig_add(result, "load_compressed_N", "N", p.value[CLOSING], ref->load_compressed_N,
                ref->tolerance);

@@ -217,7 +217,7 @@ static bt_rig_result pressed(const bt_gear_params* g, const bt_static_params* p,
 }
 
 /// On the press the strut is its gas: loads at both ends, and the gas's energy between them.
-static void press_finds_the_gas_law(void** state) {
+static void static_test_finds_the_gas_law(void** state) {
     (void)state;
     const bt_gear_params g = main_gear();
     bt_static_params p;
@@ -235,7 +235,7 @@ static void press_finds_the_gas_law(void** state) {
 }
 
 /// Friction of the seals is there in full at any speed: twice its work is not given back.
-static void press_shows_the_friction_as_hysteresis(void** state) {
+static void static_test_shows_the_friction_as_hysteresis(void** state) {
     (void)state;
     bt_gear_params g = main_gear();
     bt_static_params p;
@@ -245,7 +245,7 @@ static void press_shows_the_friction_as_hysteresis(void** state) {
     BT_ASSERT_NEAR(metric(&r, "hysteresis_J"), 2 * 2e3 * 0.6, 1e-3, 0);
 }
 
-static void press_beyond_the_gas_is_refused(void** state) {
+static void static_test_beyond_the_gas_is_refused(void** state) {
     (void)state;
     const bt_gear_params g = main_gear();
     bt_static_params p;
@@ -359,6 +359,88 @@ static void rebound_converges_with_the_step(void** state) {
 }
 
 /// A rig is a pure function of its parameters: same bits again, watched or not.
+/// Slope of the head's height where it last crossed zero upwards.
+typedef struct crossing {
+    double time_s, height_m, speed_mps;
+} crossing;
+
+static void see_crossing(void* user, const bt_rig_sample* sample) {
+    crossing* c = user;
+    const double height = sample->values[0];
+    if (c->height_m < 0 && height >= 0)
+        c->speed_mps = (height - c->height_m) / (sample->time_s - c->time_s);
+    c->height_m = height;
+    c->time_s = sample->time_s;
+}
+
+/// Restitution is the speed at which the head leaves the disc, not the fastest within the contact.
+static void restitution_is_taken_where_the_head_leaves_the_disc(void** state) {
+    (void)state;
+    const bt_hook_params h = hook();
+    const bt_rebound_params p = basket();
+    bt_rig_result r;
+    crossing c = {0};
+    assert_int_equal(bt_rig_run_rebound(&h, &p, &r, see_crossing, &c, NULL), BT_OK);
+    assert_true(c.speed_mps > 0);
+    BT_ASSERT_NEAR(metric(&r, "restitution"), c.speed_mps / p.sink_speed_mps, 1e-3, 0);
+}
+
+/// What the balance leaves over: zero by the way the residual is made.
+static double unbalanced(const bt_rig_result* r, const char* const* taken) {
+    double sum = metric(r, "impact_energy_J") + metric(r, "weight_work_J");
+    for (; *taken; ++taken)
+        sum -= metric(r, *taken);
+    return sum - metric(r, "left_J") - metric(r, "energy_residual_J");
+}
+
+static void drop_accounts_for_its_energy(void** state) {
+    (void)state;
+    static const char* const taken[] = {"strut_taken_J", "tyre_taken_J", NULL};
+    const bt_gear_params g = main_gear();
+    bt_drop_params d = main_drop();
+    double residual[2];
+    for (int fine = 0; fine < 2; ++fine) {
+        d.step_s = fine ? 1e-4 : 2e-4;
+        const bt_rig_result r = dropped(&g, &d);
+        BT_ASSERT_NEAR(metric(&r, "impact_energy_J"), 0.5 * d.mass_kg * 36, 1e-12, 0);
+        BT_ASSERT_NEAR(unbalanced(&r, taken), 0, 0, 1e-6);
+        assert_true(metric(&r, "strut_taken_J") > 0.8 * metric(&r, "impact_energy_J"));
+        residual[fine] = fabs(metric(&r, "energy_residual_J")) / metric(&r, "impact_energy_J");
+    }
+    assert_true(residual[0] < 1e-4 && residual[1] < residual[0]);
+}
+
+/// In the rim's frame the impact energy is that of the sinking basket and hook.
+static void rebound_accounts_for_its_energy(void** state) {
+    (void)state;
+    static const char* const taken[] = {"damper_taken_J", "buffer_taken_J", "disc_taken_J", NULL};
+    const bt_hook_params h = hook();
+    const bt_rebound_params p = basket();
+    const bt_rig_result r = rebounded(&h, &p);
+    const double mass = p.basket_mass_kg + h.mass_kg;
+    BT_ASSERT_NEAR(metric(&r, "impact_energy_J"), 0.5 * mass * pow(p.sink_speed_mps, 2), 1e-12, 0);
+    BT_ASSERT_NEAR(unbalanced(&r, taken), 0, 0, 1e-6);
+    BT_ASSERT_NEAR(metric(&r, "energy_residual_J") / metric(&r, "impact_energy_J"), 0, 0, 1e-3);
+}
+
+static void a_hard_drop_is_remarked_and_an_impossible_one_fails(void** state) {
+    (void)state;
+    const bt_gear_params g = main_gear();
+    bt_drop_params d = main_drop();
+    d.sink_speed_mps = 9;
+    const bt_rig_result hard = dropped(&g, &d);
+    assert_true(metric(&hard, "stroke_max_m") > g.oleo.stroke_max_m);
+    assert_true(hard.remark_count >= 1);
+    assert_string_equal(hard.remarks[0].what, "strut bottomed");
+    assert_string_equal(hard.remarks[0].element, "strut");
+    assert_true(hard.remarks[0].time_s > 0.02 && hard.remarks[0].time_s < 0.2);
+    d.mass_kg = 60000; // the axle would reach the ground
+    bt_rig_result none;
+    bt_diag diag = {0};
+    assert_int_equal(bt_rig_run_drop(&g, &d, &none, NULL, NULL, &diag), BT_ERR_NUMERIC);
+    assert_int_equal(diag.errors, 1);
+}
+
 static void rigs_repeat_to_the_bit(void** state) {
     (void)state;
     const bt_gear_params g = main_gear();
@@ -398,15 +480,19 @@ int main(void) {
         cmocka_unit_test(reference_may_have_its_own_tolerance),
         cmocka_unit_test(energies_add_up_to_that_of_the_fall),
         cmocka_unit_test(drop_with_friction_converges_with_the_step),
-        cmocka_unit_test(press_finds_the_gas_law),
-        cmocka_unit_test(press_shows_the_friction_as_hysteresis),
-        cmocka_unit_test(press_beyond_the_gas_is_refused),
+        cmocka_unit_test(static_test_finds_the_gas_law),
+        cmocka_unit_test(static_test_shows_the_friction_as_hysteresis),
+        cmocka_unit_test(static_test_beyond_the_gas_is_refused),
         cmocka_unit_test(drop_mass_below_the_leg_is_refused),
         cmocka_unit_test(rebound_reports_one_bounce),
         cmocka_unit_test(rebound_height_does_not_depend_on_the_rim_speed),
         cmocka_unit_test(rebound_grows_with_the_sinking_velocity),
         cmocka_unit_test(rebound_on_a_coating_is_softer),
         cmocka_unit_test(rebound_converges_with_the_step),
+        cmocka_unit_test(restitution_is_taken_where_the_head_leaves_the_disc),
+        cmocka_unit_test(drop_accounts_for_its_energy),
+        cmocka_unit_test(rebound_accounts_for_its_energy),
+        cmocka_unit_test(a_hard_drop_is_remarked_and_an_impossible_one_fails),
         cmocka_unit_test(rigs_repeat_to_the_bit),
         cmocka_unit_test(rig_parameters_have_sound_fallbacks),
     };
