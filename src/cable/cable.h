@@ -186,6 +186,9 @@ size_t bt_cable_memory(int count, int states);
 BT_CHECKED bt_status bt_cable_model_init(bt_cable_model* model, const bt_cable_def* def,
                                          bt_arena* arena, bt_diag* diag);
 
+/// Bytes of arena that a state of the model takes.
+size_t bt_cable_state_size(const bt_cable_model* model);
+
 /// Takes a state from the arena and places it as bt_cable_place does. BT_ERR_MEMORY.
 BT_CHECKED bt_status bt_cable_state_init(const bt_cable_model* model, bt_cable_state* state,
                                          bt_arena* arena);

@@ -4,10 +4,14 @@
 #include <math.h>
 #include <string.h>
 
+size_t bt_cable_state_size(const bt_cable_model* model) {
+    return BT_CABLE_STATE_ARRAYS * (size_t)model->stride * sizeof(double) +
+           sizeof(struct bt_cable_scalars);
+}
+
 bt_status bt_cable_state_init(const bt_cable_model* model, bt_cable_state* state, bt_arena* arena) {
     *state = (bt_cable_state){0};
-    const size_t array = (size_t)model->stride * sizeof(double);
-    state->block_size = BT_CABLE_STATE_ARRAYS * array + sizeof(struct bt_cable_scalars);
+    state->block_size = bt_cable_state_size(model);
     state->block = bt_arena_take(arena, state->block_size);
     if (!state->block)
         return BT_ERR_MEMORY;

@@ -242,6 +242,7 @@ void bt_hook_contact_press(bt_hook_contact* contact, const bt_cable_model* model
     const int middle =
         bt_cable_centreline(model, cable, centre[1], contact->hint, contact->cable_m, NULL, NULL);
     contact->hint = middle;
+    contact->beside = middle < 0;
     if (middle < 0)
         return;
 
@@ -272,8 +273,9 @@ double bt_hook_clearance(bt_hook_contact* contact, const bt_cable_model* model,
     head_to_world(contact, hook, 0, 0, centre);
     head_to_world(contact, hook, contact->profile->lip[0], contact->profile->lip[1],
                   contact->lip_m);
-    if (bt_cable_centreline(model, cable, centre[1], contact->hint, contact->cable_m, NULL, NULL) <
-        0)
+    contact->beside = bt_cable_centreline(model, cable, centre[1], contact->hint, contact->cable_m,
+                                          NULL, NULL) < 0;
+    if (contact->beside)
         return INFINITY;
     world_to_head(contact, hook, contact->cable_m, head);
     return bt_profile_nearest(contact->profile, head[0], head[1]).distance_m - model->radius_m;

@@ -71,6 +71,7 @@ typedef struct bt_hook_contact {
     double zone_force_N[BT_ZONE_COUNT]; ///< normal forces at the last evaluation
     double lip_m[3];                    ///< lip centre, world, at the last evaluation
     double cable_m[3];                  ///< cable centre in the hook's plane
+    bool beside;                        ///< the cable does not reach as far as the hook's plane
     int hint;
 } bt_hook_contact;
 

@@ -31,7 +31,9 @@ typedef enum bt_outcome { BT_MISSED, BT_ENGAGED, BT_FAILED } bt_outcome;
     M(BOUNCED_OVER, bounced_over, "the hook had bounced and crossed clear above the cable")        \
     M(PASSED_OVER, passed_over,                                                                    \
       "the hook crossed clear above the cable before it touched the deck")                         \
-    M(RIDDEN_OVER, ridden_over, "the point touched the cable and went over it")
+    M(RIDDEN_OVER, ridden_over, "the point touched the cable and went over it")                    \
+    M(PASSED_BESIDE, passed_beside, "the hook passed beyond the end of the cable")                 \
+    M(STOPPED, stopped, "the aircraft came to rest before it had passed the cable")
 
 #define BT_MODE_ENUM(NAME, name, text) BT_MODE_##NAME,
 typedef enum bt_mode { BT_MODES(BT_MODE_ENUM) BT_MODE_COUNT } bt_mode;

@@ -72,7 +72,8 @@ typedef struct bt_landing_view {
     int cable_count;
     const double *cable_x, *cable_y, *cable_z; ///< [cable_count] centres of the segments
     const double* cable_tension_N;             ///< [cable_count - 1] between neighbours
-    const void* run;                           ///< for bt_landing_cable_energy
+    const struct bt_landing_model* model;      ///< for bt_landing_cable_energy
+    struct bt_landing_state* state;
 } bt_landing_view;
 
 /// One scalar of the table.
@@ -90,7 +91,7 @@ static inline double bt_view_real(const bt_view_column* column, const bt_landing
     return *(const double*)((const char*)view + column->offset);
 }
 
-/// Energy of the cable, its supports and deck contact, J: kinetic, elastic and gravity.
+/// Energy of the cables, their supports and deck contact, J: kinetic, elastic and gravity.
 double bt_landing_cable_energy(const bt_landing_view* view);
 
 #endif

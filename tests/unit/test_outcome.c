@@ -2,9 +2,10 @@
 
 #include "landing/outcome.h"
 
-/// The tracker with the cable at rest at the origin, 75 mm up, and what it has concluded.
+/// A landing with the cable at rest at the origin, 75 mm up, and what is concluded of it.
 typedef struct meeting {
-    bt_tracker tracker;
+    bt_hops hops;
+    bt_meeting wire;
     bt_landing_result result;
     double time_s;
 } meeting;
@@ -13,28 +14,31 @@ static const double far_away[3] = {-5, 0, 0.03};
 static const double cable[3] = {0, 0, 0.075};
 
 static meeting begin(void) {
-    meeting m = {.time_s = 0};
-    bt_tracker_start(&m.tracker, &m.result);
+    meeting m = {.result.time_of_contact_s = NAN};
+    bt_meeting_start(&m.wire);
     return m;
 }
 
 static void deck(meeting* m, double x, double height, double force) {
-    bt_tracker_deck(&m->tracker, &m->result, x, height, force);
+    bt_hops_see(&m->hops, &m->result, x, height, force, !isnan(m->wire.first_contact_s));
 }
 
 /// One cable step: normal forces on shoe, point, throat, arm; lip and cable centres.
 static void touch(meeting* m, double shoe, double point, double throat, double arm,
                   const double lip[3]) {
-    const double zone[BT_ZONE_COUNT] = {[BT_ZONE_SHOE] = shoe,
-                                        [BT_ZONE_POINT] = point,
-                                        [BT_ZONE_THROAT] = throat,
-                                        [BT_ZONE_ARM] = arm};
+    bt_hook_contact hook = {.zone_force_N = {[BT_ZONE_SHOE] = shoe,
+                                             [BT_ZONE_POINT] = point,
+                                             [BT_ZONE_THROAT] = throat,
+                                             [BT_ZONE_ARM] = arm}};
+    memcpy(hook.lip_m, lip, sizeof hook.lip_m);
+    memcpy(hook.cable_m, cable, sizeof hook.cable_m);
     m->time_s += 1e-5;
-    bt_tracker_cable(&m->tracker, &m->result, m->time_s, zone, lip, cable);
+    bt_meeting_see(&m->wire, &hook, m->time_s, m->hops.touched);
 }
 
 static const bt_landing_result* finish(meeting* m) {
-    bt_tracker_finish(&m->tracker, &m->result);
+    const bt_meeting* const one[] = {&m->wire};
+    bt_outcome_finish(&m->hops, one, 1, false, &m->result);
     return &m->result;
 }
 
@@ -43,6 +47,7 @@ static void assert_ended(const bt_landing_result* r, bt_outcome outcome, bt_mode
     assert_string_equal(bt_mode_name(r->mode), bt_mode_name(mode));
 }
 
+/// Eq. 18.
 static void throat_first_is_direct(void** state) {
     (void)state;
     meeting m = begin();
@@ -160,6 +165,54 @@ static void the_margin_is_the_height_of_rope_over_lip(void** state) {
     BT_ASSERT_NEAR(finish(&m)->margin_m, 0.01, 1e-13, 0);
 }
 
+static void beyond_the_end_of_the_cable_it_is_passed_beside(void** state) {
+    (void)state;
+    meeting m = begin();
+    deck(&m, -6, 0, 1e5);
+    bt_hook_contact hook = {.beside = true, .lip_m = {-0.1, 12, 0.03}};
+    bt_meeting_see(&m.wire, &hook, 0.1, true);
+    hook.lip_m[0] = 0.1;
+    bt_meeting_see(&m.wire, &hook, 0.2, true);
+    const bt_landing_result* r = finish(&m);
+    assert_ended(r, BT_MISSED, BT_MODE_PASSED_BESIDE);
+    assert_true(isnan(r->margin_m));
+}
+
+static void at_rest_before_the_cable_it_has_stopped(void** state) {
+    (void)state;
+    meeting m = begin();
+    deck(&m, -6, 0, 1e5);
+    const bt_meeting* const one[] = {&m.wire};
+    bt_outcome_finish(&m.hops, one, 1, true, &m.result);
+    assert_ended(&m.result, BT_MISSED, BT_MODE_STOPPED);
+    assert_true(isnan(m.result.margin_m));
+}
+
+/// Of several wires the one that was caught speaks for the landing, else the last one met.
+static void the_wire_that_decides(void** state) {
+    (void)state;
+    bt_meeting wire[3];
+    const bt_meeting* const all[] = {&wire[0], &wire[1], &wire[2]};
+    for (int k = 0; k < 3; ++k)
+        bt_meeting_start(&wire[k]);
+    wire[0].met = wire[1].met = true;
+    wire[0].margin_m = -0.03;
+    wire[1].margin_m = -0.01;
+    wire[1].first_contact_s = 0.4;
+    wire[0].throat_force_peak_N = 7;
+    const bt_hops hops = {.touched = true};
+    bt_landing_result r = {0};
+    bt_outcome_finish(&hops, all, 3, false, &r);
+    assert_ended(&r, BT_MISSED, BT_MODE_RIDDEN_OVER);
+    assert_true(r.margin_m == -0.01 && r.time_of_contact_s == 0.4 && r.throat_force_peak_N == 7);
+    wire[2].met = true;
+    wire[2].margin_m = 0.02;
+    wire[2].catch_s = wire[2].first_contact_s = 0.7;
+    bt_outcome_finish(&hops, all, 3, false, &r);
+    assert_ended(&r, BT_ENGAGED, BT_MODE_DIRECT);
+    assert_true(r.margin_m == 0.02 && r.time_of_contact_s == 0.4);
+}
+
 static void retained_while_throat_or_arm_still_holds_at_the_end(void** state) {
     (void)state;
     static const double there[3] = {0.05, 0, 0.03};
@@ -244,6 +297,9 @@ int main(void) {
         cmocka_unit_test(the_margin_is_taken_once_when_they_meet),
         cmocka_unit_test(the_way_left_at_the_touch_is_carried_on),
         cmocka_unit_test(the_margin_is_the_height_of_rope_over_lip),
+        cmocka_unit_test(beyond_the_end_of_the_cable_it_is_passed_beside),
+        cmocka_unit_test(at_rest_before_the_cable_it_has_stopped),
+        cmocka_unit_test(the_wire_that_decides),
         cmocka_unit_test(retained_while_throat_or_arm_still_holds_at_the_end),
         cmocka_unit_test(bounces_have_height_distance_and_the_force_that_began_them),
         cmocka_unit_test(what_the_cable_does_to_the_hook_is_no_bounce),

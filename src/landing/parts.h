@@ -1,0 +1,65 @@
+/// Inside of a landing's model and state; for the files of this folder only.
+#ifndef BT_LANDING_PARTS_H
+#define BT_LANDING_PARTS_H
+
+#include "landing/airframe.h"
+#include "landing/model.h"
+#include "landing/wire.h"
+
+enum { BT_WIRE_MAX = 1 };
+
+struct bt_landing_model {
+    bt_model_params params; ///< what the parts, where there are any, were built from
+    bool has_airframe, has_cable;
+    uint64_t built; ///< changes with every rebuilding of a part: states before it do not fit
+    bt_arena arena;
+    size_t airframe_mark; ///< of the arena: what follows belongs to the wires
+    bt_airframe airframe;
+    bt_state hanging; ///< as assembled
+    bt_cable_model cable;
+    bt_cable_state resting;
+    int wire_count;
+    bt_wire wire[BT_WIRE_MAX];
+    double segment_m[BT_CABLE_SEGMENTS_MAX];
+};
+
+typedef enum bt_landing_phase {
+    BT_PHASE_GLIDE, ///< before the first contact with the deck: lift carries the weight
+    BT_PHASE_ROLL,  ///< after it
+    BT_PHASE_CAUGHT,
+    BT_PHASE_PASSED,
+    BT_PHASE_STOPPED,
+    BT_PHASE_FAILED,
+} bt_landing_phase;
+
+struct bt_landing_state {
+    uint64_t built; ///< of the model
+    size_t size;    ///< of the block, this struct included
+    bt_state airframe;
+    bt_wire_state wire[BT_WIRE_MAX];
+    bt_landing_phase phase;
+    double end_by_s; ///< the landing is over by then, whatever happens
+    bt_hops hops;
+    bt_moving_body part[BT_PART_COUNT]; ///< as the wires meet them
+    bt_landing_result result;           ///< of what has been seen so far
+    bool observed;                      ///< somebody looks: the works are worth their time
+    bt_works works;
+    bt_slides slides;  ///< scratch, but for its work
+    double* tension_N; ///< scratch for observers
+};
+
+static inline bool bt_phase_is_over(bt_landing_phase phase) {
+    return phase > BT_PHASE_ROLL;
+}
+
+/// An output of an element of the airframe at the last evaluation.
+static inline double bt_landing_output(const bt_landing_model* model, const bt_landing_state* state,
+                                       int element, int index) {
+    return bt_system_element_output(model->airframe.system, &state->airframe, element)[index];
+}
+
+/// The landing has failed in an element, by a quantity, at a time.
+void bt_landing_fail(bt_landing_state* state, const char* element, const char* quantity,
+                     double time_s);
+
+#endif

@@ -1,0 +1,86 @@
+/// Where a landing begins: aircraft on its glide, wires at rest.
+#include "landing/parts.h"
+
+#include "mechanics/vec.h"
+
+#include <math.h>
+#include <string.h>
+
+/// When, on the glide, a part whose lowest point is `lowest_m` at time 0 and that reaches
+/// `reach_m` fore and aft comes up to a wire at x = 0; 0 when it does so later, or leaves it again
+/// higher than `top_m`.
+static double comes_to_cable_s(const bt_landing_params* p, const double lowest_m[3], double reach_m,
+                               double top_m) {
+    const double enters_s = (-reach_m - lowest_m[0]) / p->horizontal_speed_mps;
+    const double leaves_s = (reach_m - lowest_m[0]) / p->horizontal_speed_mps;
+    const double leaves_at_m = lowest_m[2] - fmin(leaves_s, 0) * p->sink_speed_mps;
+    return enters_s < 0 && leaves_at_m < top_m ? enters_s : 0;
+}
+
+/// Where the glide meets the deck at time 0: the shift that puts the lowest part on the deck and
+/// the named part at its distance before the wire.
+static void touchdown_shift(const bt_landing_params* p, const bt_glide* glide, double shift[3]) {
+    double lowest = glide->hook_m[2];
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
+        lowest = fmin(lowest, glide->tyre_m[leg][2]);
+    const double wheels_x = 0.5 * (glide->tyre_m[BT_LEG_LEFT][0] + glide->tyre_m[BT_LEG_RIGHT][0]);
+    const double from = p->distance_from == BT_DISTANCE_FROM_HOOK ? glide->hook_m[0] : wheels_x;
+    shift[0] = -p->distance_m - from;
+    shift[1] = 0;
+    shift[2] = -lowest;
+}
+
+/// When the run begins: before the first touch, before any tyre comes up to the cable, and before
+/// the hook crosses it. `glide` is moved to where it is at time 0.
+static double begins_s(const bt_landing_model* m, bt_glide* glide, const double shift[3]) {
+    static const double before_touch_s = 1e-3, hook_reach_m = 0.5, tyre_margin_m = 0.05,
+                        above_cable_m = 0.1;
+    const bt_landing_params* p = &m->params.landing;
+    const bt_cable_params* cable = &m->params.deck.cable;
+    const double top_m =
+        fmax(cable->supports.height_m, cable->sheaves.height_m) + cable->diameter_m + above_cable_m;
+    double begin_s = -before_touch_s;
+    bt_add_scaled(glide->hook_m, 1, shift);
+    // the hook's way over the cable is seen from however high: it gives the margin
+    begin_s = fmin(begin_s, comes_to_cable_s(p, glide->hook_m, hook_reach_m, INFINITY));
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        bt_add_scaled(glide->tyre_m[leg], 1, shift);
+        const double reach_m = m->airframe.tyre[leg].radius + tyre_margin_m;
+        begin_s = fmin(begin_s, comes_to_cable_s(p, glide->tyre_m[leg], reach_m, top_m));
+    }
+    return begin_s;
+}
+
+/// The wire rests at x = 0, the named part of the gliding aircraft is `distance` before it when the
+/// first part touches the deck at time 0. Going back along the glide is exact, since nothing
+/// touches anything there and lift carries the weight (bt_landing_frame).
+bool bt_landing_start(const bt_landing_model* m, bt_landing_state* s) {
+    const bt_landing_params* p = &m->params.landing;
+    bt_glide glide;
+    double shift[3];
+    bt_airframe_place(&m->airframe, p, &m->hanging, &s->airframe, &glide);
+    touchdown_shift(p, &glide, shift);
+    const double begin_s = begins_s(m, &glide, shift);
+    const double back[3] = {shift[0] + begin_s * p->horizontal_speed_mps, 0,
+                            shift[2] - begin_s * p->sink_speed_mps};
+    bt_airframe_move(&m->airframe, back, &s->airframe);
+    s->airframe.time_s = begin_s;
+    s->airframe.steps = 0;
+
+    for (int k = 0; k < m->wire_count; ++k) {
+        bt_wire_contacts(&m->airframe, &m->params, &s->wire[k]);
+        bt_wire_start(&m->wire[k], &s->wire[k]);
+    }
+    memset(&s->slides, 0, sizeof s->slides);
+    s->observed = false;
+    s->works = (bt_works){.friction_most = -INFINITY};
+    s->hops = (bt_hops){0};
+    s->result = (bt_landing_result){.margin_m = NAN, .time_of_contact_s = NAN};
+    s->result.shank_bends = m->airframe.shank.bends;
+    s->phase = BT_PHASE_ROLL;
+    bt_failure failure = {0};
+    if (bt_system_project(m->airframe.system, &s->airframe, &failure) != BT_OK ||
+        bt_system_evaluate(m->airframe.system, &s->airframe, &failure) != BT_OK)
+        bt_landing_fail(s, failure.where, failure.quantity, failure.time_s);
+    return !bt_phase_is_over(s->phase);
+}

@@ -1,0 +1,191 @@
+/// One step of a landing [Peng2023 Sec. 2].
+#include "landing/parts.h"
+
+#include "elements/strut.h"
+#include "elements/wheel.h"
+#include "mechanics/vec.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void bt_landing_fail(bt_landing_state* s, const char* element, const char* quantity,
+                     double time_s) {
+    bt_landing_result* result = &s->result;
+    s->phase = BT_PHASE_FAILED;
+    result->failed_time_s = time_s;
+    snprintf(result->failed_element, sizeof result->failed_element, "%s", element);
+    snprintf(result->failed_quantity, sizeof result->failed_quantity, "%s", quantity);
+}
+
+/* ---- where the parts are ---- */
+
+static void follow_body(const bt_state* state, int body, bt_moving_body* part) {
+    const double* q = state->q + 7 * body;
+    const double* v = state->v + 6 * body;
+    memcpy(part->position_m, q, sizeof part->position_m);
+    memcpy(part->velocity_mps, v, sizeof part->velocity_mps);
+    memcpy(part->acceleration_mps2, state->a + 6 * body, sizeof part->acceleration_mps2);
+    memcpy(part->rotation, state->rotation + 9 * body, sizeof part->rotation);
+    bt_rotate(part->rotation, v + 3, part->spin_radps);
+    memset(part->impulse_Ns, 0, sizeof part->impulse_Ns);
+    memset(part->moment_Nms, 0, sizeof part->moment_Nms);
+}
+
+static int body_of(int part) {
+    return part == BT_PART_HOOK ? BT_BODY_HOOK : BT_BODY_NOSE_WHEEL + part;
+}
+
+static void follow_parts(const bt_landing_model* m, bt_landing_state* s) {
+    for (int k = 0; k < BT_PART_COUNT; ++k)
+        follow_body(&s->airframe, body_of(k), &s->part[k]);
+    for (int k = 0; k < m->wire_count; ++k)
+        bt_wire_follow(&m->wire[k], &s->wire[k], s->part);
+}
+
+/* ---- how long the step may be ---- */
+
+/// The longest step at which the oil damping of the unsprung masses is stable: 0.8 of
+/// m / (dF_h/ds'), dF_h/ds' = 2 F_h / s'. A rebound valve asks for it when a wheel leaves the deck.
+static double damped_step(const bt_landing_model* m, const bt_landing_state* s) {
+    const bt_airframe* f = &m->airframe;
+    double step_s = INFINITY;
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        const double stroke = bt_landing_output(m, s, f->strut[leg], BT_STRUT_STROKE);
+        const double rate = bt_landing_output(m, s, f->strut[leg], BT_STRUT_RATE);
+        const double oil_N = bt_oleo_oil_force(&f->oleo[leg], stroke, rate);
+        if (oil_N != 0)
+            step_s = fmin(step_s, 0.4 * f->unsprung_kg[leg] * rate / oil_N);
+    }
+    return step_s;
+}
+
+/// The airframe's step: fine around an impact of the shoe on the deck and while the hook is close
+/// to a cable, half the coarse one while the shoe slides or hops by less than a millimetre.
+static double wanted_step(const bt_landing_model* m, const bt_landing_state* s) {
+    static const double impact_mps = 0.5, steps_ahead = 4;
+    const bt_solver_params* solver = &m->params.landing.solver;
+    const double ahead_s = steps_ahead * solver->airframe_step_s;
+    const double speed = fabs(bt_landing_output(m, s, m->airframe.shoe, BT_SHOE_RATE));
+    const bool at_deck =
+        bt_landing_output(m, s, m->airframe.shoe, BT_SHOE_HEIGHT) < ahead_s * speed;
+    double clearance_m = INFINITY;
+    for (int k = 0; k < m->wire_count; ++k)
+        clearance_m = fmin(clearance_m, s->wire[k].clearance_m[BT_PART_HOOK]);
+    const bool at_cable = clearance_m < ahead_s * fabs(s->airframe.v[6 * BT_BODY_HOOK]);
+    if (at_cable || (at_deck && speed > impact_mps))
+        return fmin(solver->contact_step_s, solver->airframe_step_s);
+    return at_deck ? 0.5 * solver->airframe_step_s : solver->airframe_step_s;
+}
+
+static double choose_step(const bt_landing_model* m, const bt_landing_state* s) {
+    return fmin(wanted_step(m, s), damped_step(m, s));
+}
+
+/* ---- the wires ---- */
+
+/// Mean wrench of the airframe step on one body.
+static void apply_reaction(const bt_moving_body* part, double step_s, double* applied) {
+    double torque[3];
+    bt_unrotate(part->rotation, part->moment_Nms, torque);
+    for (int i = 0; i < 3; ++i) {
+        applied[i] = part->impulse_Ns[i] / step_s;
+        applied[3 + i] = torque[i] / step_s;
+    }
+}
+
+static void step_wires(const bt_landing_model* m, bt_landing_state* s, double step_s) {
+    const bt_landing_params* p = &m->params.landing;
+    const double reach_m = 2 * step_s * p->horizontal_speed_mps + 0.01;
+    memset(s->airframe.applied, 0, 6 * BT_BODY_COUNT * sizeof *s->airframe.applied);
+    bool met[BT_PART_COUNT] = {false};
+    for (int k = 0; k < m->wire_count; ++k) {
+        const bt_wire* wire = &m->wire[k];
+        s->result.cable_steps += bt_wire_step(
+            wire, &s->wire[k], s->part, &s->slides, s->observed ? &s->works : NULL,
+            s->airframe.time_s, step_s, p->solver.cable_courant * wire->cable->stable_step_s,
+            reach_m, s->hops.touched);
+        for (int part = 0; part < BT_PART_COUNT; ++part)
+            met[part] |= !s->wire[k].clearer[part];
+    }
+    for (int part = 0; part < BT_PART_COUNT; ++part)
+        if (met[part])
+            apply_reaction(&s->part[part], step_s, s->airframe.applied + 6 * body_of(part));
+}
+
+/* ---- what has been seen ---- */
+
+static bool on_wire(const bt_landing_model* m, const bt_landing_state* s) {
+    for (int k = 0; k < m->wire_count; ++k)
+        if (!isnan(s->wire[k].meeting.first_contact_s))
+            return true;
+    return false;
+}
+
+/// After an airframe step: what the wheels, struts, the shoe and the wires have seen.
+static void record(const bt_landing_model* m, bt_landing_state* s) {
+    const bt_airframe* f = &m->airframe;
+    bt_landing_result* result = &s->result;
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
+        const double load = bt_landing_output(m, s, f->wheel[leg], BT_WHEEL_NORMAL) +
+                            s->airframe.applied[6 * body_of(leg) + 2];
+        result->tyre_force_max_N[leg] = fmax(result->tyre_force_max_N[leg], load);
+        result->strut_stroke_max_m[leg] =
+            fmax(result->strut_stroke_max_m[leg],
+                 bt_landing_output(m, s, f->strut[leg], BT_STRUT_STROKE));
+    }
+    bt_hops_see(&s->hops, result, bt_landing_output(m, s, f->shoe, BT_SHOE_X),
+                bt_landing_output(m, s, f->shoe, BT_SHOE_HEIGHT),
+                bt_landing_output(m, s, f->shoe, BT_SHOE_FORCE), on_wire(m, s));
+    for (int k = 0; k < m->wire_count; ++k)
+        bt_wire_record(&m->wire[k], &s->wire[k], s->airframe.time_s, s->hops.touched);
+}
+
+/// Caught and held a little, or past the last wire, or out of its reach.
+static bt_landing_phase phase_of(const bt_landing_model* m, const bt_landing_state* s) {
+    const bt_solver_params* solver = &m->params.landing.solver;
+    bool past_all = true;
+    for (int k = 0; k < m->wire_count; ++k) {
+        const bt_wire_state* wire = &s->wire[k];
+        if (bt_meeting_caught(&wire->meeting))
+            return s->airframe.time_s >= wire->meeting.catch_s + solver->after_catch_s
+                       ? BT_PHASE_CAUGHT
+                       : s->phase;
+        past_all &= bt_wire_passed_m(wire) >= solver->past_cable_m ||
+                    wire->hook.lip_m[0] >= BT_PAST_CABLE_MOST_M; // riding on the arm
+    }
+    return past_all ? BT_PHASE_PASSED : s->phase;
+}
+
+static bool cables_are_finite(const bt_landing_model* m, const bt_landing_state* s) {
+    for (int k = 0; k < m->wire_count; ++k)
+        if (s->wire[k].awake && !bt_cable_is_finite(m->wire[k].cable, &s->wire[k].cable))
+            return false;
+    return true;
+}
+
+bool bt_landing_step(const bt_landing_model* m, bt_landing_state* s) {
+    bt_failure failure = {0};
+    if (bt_phase_is_over(s->phase))
+        return false;
+    // 1. where wheels and hook are, how far from the wires, and the step that all parts bear
+    follow_parts(m, s);
+    const double step_s = choose_step(m, s);
+    // 2. wires: joints, tyres and hook on the cable, steps of their own
+    //    [Peng2023 Eqs. 6, 7, 11-17]; the airframe gets the opposite as a mean over the step
+    step_wires(m, s, step_s);
+    // 3. airframe: struts [Peng2023 Eqs. 2-5], tyres on the deck [Peng2023 Eqs. 6-8], hook damper
+    //    [Peng2023 Eq. 9], hook on the deck [Peng2023 Eq. 10], solved with the joints
+    //    [Peng2023 Eq. 1]
+    if (bt_system_step(m->airframe.system, &s->airframe, step_s, BT_INTEGRATOR_SECOND_ORDER,
+                       &failure) != BT_OK)
+        bt_landing_fail(s, failure.where, failure.quantity, failure.time_s);
+    else if (!cables_are_finite(m, s))
+        bt_landing_fail(s, "cable", "position or velocity", s->airframe.time_s);
+    else {
+        // 4. bounces, loads, and the limit state of every wire [Peng2023 Eq. 18]
+        record(m, s);
+        s->phase = phase_of(m, s);
+    }
+    return !bt_phase_is_over(s->phase);
+}

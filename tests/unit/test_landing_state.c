@@ -1,0 +1,113 @@
+/// A landing stepped, paused, copied and compared from outside.
+#include "reference.h"
+
+#include "landing/model.h"
+#include "landing/view.h"
+
+typedef struct flight {
+    bt_landing_model* model;
+    bt_landing_state* state;
+} flight;
+
+static flight begin(const bt_model_params* params) {
+    flight f;
+    assert_int_equal(bt_landing_model_create(&f.model), BT_OK);
+    assert_int_equal(bt_landing_model_prepare(f.model, params, NULL), BT_OK);
+    assert_int_equal(bt_landing_state_create(f.model, &f.state), BT_OK);
+    assert_true(bt_landing_start(f.model, f.state));
+    return f;
+}
+
+static void end(flight* f) {
+    bt_landing_state_destroy(f->state);
+    bt_landing_model_destroy(f->model);
+}
+
+static bt_landing_result fly_on(const flight* f, bt_landing_state* state) {
+    bt_landing_result result;
+    while (bt_landing_step(f->model, state))
+        ;
+    bt_landing_finish(f->model, state, &result);
+    return result;
+}
+
+static void stepping_from_outside_is_the_lander_s_run(void** state) {
+    (void)state;
+    const bt_model_params params = REFERENCE("landing.distance=5 m");
+    bt_lander* lander = new_lander();
+    const bt_landing_result whole = land(lander, &params, NULL, NULL);
+    flight f = begin(&params);
+    const bt_landing_result stepped = fly_on(&f, f.state);
+    assert_true(stepped.state_hash == whole.state_hash);
+    assert_int_equal(stepped.steps, whole.steps);
+    assert_int_equal(stepped.cable_steps, whole.cable_steps);
+    assert_int_equal(stepped.mode, whole.mode);
+    assert_true(stepped.margin_m == whole.margin_m);
+    // it is over: nothing moves any more
+    assert_false(bt_landing_step(f.model, f.state));
+    bt_landing_result again;
+    bt_landing_finish(f.model, f.state, &again);
+    assert_true(again.state_hash == stepped.state_hash);
+    end(&f);
+    bt_lander_destroy(lander);
+}
+
+/// A copy taken in the middle of the meeting goes on as the original does, wherever it lies.
+static void a_copy_goes_on_as_the_original(void** state) {
+    (void)state;
+    const bt_model_params params = REFERENCE("landing.distance=8 m");
+    flight f = begin(&params);
+    bt_landing_state* copy;
+    assert_int_equal(bt_landing_state_create(f.model, &copy), BT_OK);
+    bt_landing_view view;
+    do {
+        assert_true(bt_landing_step(f.model, f.state));
+        bt_landing_observe(f.model, f.state, false, &view);
+    } while (!(view.cable_awake && view.tyre_cable_force_N[BT_LEG_LEFT] > 0));
+    bt_landing_state_copy(f.model, copy, f.state);
+    assert_true(bt_landing_state_equal(f.model, copy, f.state));
+    bt_landing_step(f.model, copy);
+    assert_false(bt_landing_state_equal(f.model, copy, f.state));
+    bt_landing_step(f.model, f.state);
+    assert_true(bt_landing_state_equal(f.model, copy, f.state));
+
+    const bt_landing_result first = fly_on(&f, f.state);
+    assert_false(bt_landing_state_equal(f.model, copy, f.state));
+    const bt_landing_result second = fly_on(&f, copy);
+    assert_true(bt_landing_state_equal(f.model, copy, f.state));
+    assert_true(first.state_hash == second.state_hash);
+    assert_true(first.margin_m == second.margin_m);
+    assert_int_equal(first.bounce_count, second.bounce_count);
+    bt_landing_state_destroy(copy);
+    end(&f);
+}
+
+/// Parts that do not change stay, and with them the states; a new deck makes states of before
+/// useless, and says so.
+static void preparing_again_keeps_what_has_not_changed(void** state) {
+    (void)state;
+    bt_model_params params = REFERENCE("landing.distance=5 m");
+    flight f = begin(&params);
+    const bt_landing_result first = fly_on(&f, f.state);
+    params.landing.pitch_rad = 0;
+    assert_int_equal(bt_landing_model_prepare(f.model, &params, NULL), BT_OK);
+    assert_true(bt_landing_state_fits(f.model, f.state));
+    params.landing.pitch_rad = REFERENCE("landing.distance=5 m").landing.pitch_rad;
+    assert_int_equal(bt_landing_model_prepare(f.model, &params, NULL), BT_OK);
+    assert_true(bt_landing_start(f.model, f.state));
+    assert_true(fly_on(&f, f.state).state_hash == first.state_hash);
+
+    params.deck.cable.pretension_N *= 1.01;
+    assert_int_equal(bt_landing_model_prepare(f.model, &params, NULL), BT_OK);
+    assert_false(bt_landing_state_fits(f.model, f.state));
+    end(&f);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stepping_from_outside_is_the_lander_s_run),
+        cmocka_unit_test(a_copy_goes_on_as_the_original),
+        cmocka_unit_test(preparing_again_keeps_what_has_not_changed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
