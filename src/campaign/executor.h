@@ -61,6 +61,11 @@ BT_CHECKED bt_status bt_landing_at(bt_lander* lander, bt_model_params* model,
                                    bt_landing_result* result, bt_landing_observer* observer,
                                    void* user);
 
+/// Whether a landing with this model could begin. BT_ERR_INPUT: `why` [size] receives the first
+/// reason, "key: limit"; BT_ERR_MEMORY.
+BT_CHECKED bt_status bt_landing_possible(bt_lander* lander, const bt_model_params* model, char* why,
+                                         size_t size);
+
 /// One landing of a model that has no fault yet: checks it first; otherwise as bt_landing_at.
 BT_CHECKED bt_status bt_landing_try(bt_lander* lander, const bt_model_params* model,
                                     bt_landing_result* result, bt_landing_observer* observer,

@@ -44,6 +44,17 @@ bt_status bt_landing_try(bt_lander* lander, const bt_model_params* model, bt_lan
     return BT_OK;
 }
 
+bt_status bt_landing_possible(bt_lander* lander, const bt_model_params* model, char* why,
+                              size_t size) {
+    first_error first = {""};
+    bt_diag check = {.sink = keep_first, .user = &first};
+    bt_status status = bt_group_check(&bt_model_group, model, "", &check);
+    if (status == BT_OK)
+        status = bt_lander_prepare(lander, model, &check);
+    snprintf(why, size, "%s", first.text);
+    return status;
+}
+
 bt_status bt_landing_at(bt_lander* lander, bt_model_params* model, const bt_input* inputs,
                         const bt_axes* axes, const double* x, bt_landing_result* result,
                         bt_landing_observer* observer, void* user) {

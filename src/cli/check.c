@@ -1,4 +1,5 @@
 #include "campaign/design.h"
+#include "campaign/executor.h"
 #include "cli/cli.h"
 #include "landing/stable_step.h"
 #include "report/rig_report.h"
@@ -62,6 +63,45 @@ static void warn(const bt_study* study, bt_diag* diag) {
                         "%s: %.0f %% of its distribution lies outside its range in campaign.bounds",
                         input->path, 100 * outside);
     }
+}
+
+/// The ends of what an input may be: of its range in the design, or 99.8 % of its distribution.
+static void ends_of(const bt_study* study, const bt_input* input, double ends[2]) {
+    const bool drawn = study->campaign.design == BT_DESIGN_MONTE_CARLO || !input->bounded;
+    ends[0] = drawn ? bt_distribution_quantile(&input->distribution, 0.001) : input->lower;
+    ends[1] = drawn ? bt_distribution_quantile(&input->distribution, 0.999) : input->upper;
+}
+
+/// Tries whether a landing can begin as the study stands, and with each input at either end, the
+/// others as they stand. The former is an error, the latter a warning: such landings will fail.
+static bt_status try_ends(const bt_study* study, bt_diag* diag) {
+    char why[512], value[64];
+    bt_lander* lander = NULL;
+    BT_TRY(bt_lander_create(&lander));
+    bt_status status = bt_landing_possible(lander, &study->model, why, sizeof why);
+    if (status == BT_ERR_INPUT)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "%s", why);
+    for (int i = 0; i < 2 * study->input_count && status == BT_OK; ++i) {
+        const bt_input* input = &study->inputs[i / 2];
+        bt_model_params model = study->model;
+        double ends[2];
+        if (!input->bounded && !input->random)
+            continue;
+        ends_of(study, input, ends);
+        bt_field_set(input->field, &model, input->offset, ends[i % 2]);
+        const bt_status end = bt_landing_possible(lander, &model, why, sizeof why);
+        bt_unit_print(ends[i % 2], input->field->unit[0] ? input->field->unit : "1", value,
+                      sizeof value);
+        if (end == BT_ERR_INPUT)
+            bt_diag_add(diag, BT_WARNING, input->where,
+                        "%s: at %s, where its values end, no landing can begin, and such runs "
+                        "fail: %s",
+                        input->path, value, why);
+        else
+            status = end;
+    }
+    bt_lander_destroy(lander);
+    return status;
 }
 
 static void print_text(const bt_study* study, int64_t runs, const bt_stable_step* steps,
@@ -154,6 +194,7 @@ static bt_status check(const bt_command* command, const bt_study* study) {
     int step_count = 0;
     BT_TRY(bt_stable_steps(&study->model, steps, &step_count, &diag));
     warn(study, &diag);
+    BT_TRY(try_ends(study, &diag));
     if (command->json)
         print_json(study, runs, steps, step_count);
     else if (!command->quiet)

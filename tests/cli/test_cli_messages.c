@@ -108,6 +108,11 @@ static void a_campaign_outlives_impossible_points(void** state) {
     assert_int_equal(bolter(f, "--version; cp studies/reference/aircraft.yaml "
                                "studies/reference/deck.yaml %"),
                      0);
+    assert_int_equal(bolter(f, "check %/study.yaml"), 0);
+    assert_has(f->err, "warning: aircraft.mass: at 200 kg, where its values end");
+    assert_has(f->err, "not more than the mass of gear and hook, 527.9 kg");
+    assert_int_equal(bolter(f, "check %/study.yaml --set aircraft.inertia_yy='3.58e5 kg m2'"), 3);
+    assert_has(f->err, "aircraft.inertia_yy: 358000 kg m^2 is outside 358572 .. 529932 kg m^2");
     assert_int_equal(bolter(f, "campaign %/study.yaml -o %/c --set campaign.samples=16 "
                                "--set campaign.max_failed=0.5"),
                      0);
