@@ -63,7 +63,11 @@ static void string_frequencies_converge_to_fourth_order(void** state) {
         }
         print_message("string mode %d at 0.4, 0.2, 0.1 m: %.3g %.3g %.3g\n", n, error[0], error[1],
                       error[2]);
-        assert_true(fabs(error[2]) < 1e-4);
+        assert_true(fabs(error[2]) < 1e-5);
+        for (int k = 0; k < 2 && n >= 5; ++k) { // below, the time of the crossings is the error
+            const double ratio = error[k] / error[k + 1];
+            assert_true(ratio > 14 && ratio < 25); // 2^4, and a little of the next order
+        }
     }
 }
 
@@ -369,7 +373,7 @@ static void transverse_impact_of_the_arresting_cable(void** state) {
             const impact got = strike(def, eps0, rows[k][0], 0.05, 0.030);
             char name[64];
             snprintf(name, sizeof name, "impact %g m/s, T0 = %g kN", rows[k][0], tight ? 15.5 : 0);
-            check_impact(name, got, want.tension, want.kink_speed, want.angle, 0.03);
+            check_impact(name, got, want.tension, want.kink_speed, want.angle, 0.003);
         }
 }
 
@@ -394,7 +398,7 @@ static void transverse_impact_of_strings(void** state) {
         const impact got = strike(def, rows[k][2], rows[k][1], 0.05, 0.024);
         char name[64];
         snprintf(name, sizeof name, "string, c = %g, V = %g, eps0 = %g", c, rows[k][1], rows[k][2]);
-        check_impact(name, got, c * c * rows[k][3], rows[k][4], rows[k][5], 0.03);
+        check_impact(name, got, c * c * rows[k][3], rows[k][4], rows[k][5], 0.003);
     }
 }
 
