@@ -17,6 +17,30 @@ static void leave_c_locale(locale_t before) {
     freelocale(uselocale(before));
 }
 
+void bt_text_plain(const char* typed, char* plain, size_t size) {
+    static const struct {
+        const char *from, *to;
+    } same[] = {
+        {"\u2212", "-"}, {"\u00a0", " "}, {"\u202f", " "},         {"\u2009", " "},
+        {"\u00b5", "u"}, {"\u03bc", "u"}, {"\u00b2", "^2"},        {"\u00b3", "^3"},
+        {"\u00b7", "*"}, {"\u22c5", "*"}, {"\u207b\u00b9", "^-1"}, {"\u207b\u00b2", "^-2"},
+    };
+    size_t used = 0;
+    while (*typed && used + 4 < size) {
+        size_t k = 0;
+        while (k < sizeof same / sizeof same[0] &&
+               strncmp(typed, same[k].from, strlen(same[k].from)) != 0)
+            ++k;
+        if (k == sizeof same / sizeof same[0]) {
+            plain[used++] = *typed++;
+            continue;
+        }
+        typed += strlen(same[k].from);
+        used += (size_t)snprintf(plain + used, size - used, "%s", same[k].to);
+    }
+    plain[used] = '\0';
+}
+
 static const char* skip_digits(const char* p) {
     while (*p >= '0' && *p <= '9')
         ++p;

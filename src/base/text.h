@@ -17,6 +17,11 @@ void bt_text_print_number(double value, char* text, size_t size);
 /// Writes a double with `digits` significant digits (as %.*g).
 void bt_text_print_rounded(double value, int digits, char* text, size_t size);
 
+/// Copies a typed quantity with what keyboards and documents put in the place of plain characters:
+/// minus signs, blanks that do not break, the micro sign, raised digits and the raised dot become
+/// - blank u digits (after ^) and *. Cuts what does not fit.
+void bt_text_plain(const char* typed, char* plain, size_t size);
+
 /// The number of single-character insertions, deletions, substitutions and swaps of neighbours
 /// that turn a into b. Names longer than 63 characters are taken as unlike everything.
 int bt_text_distance(const char* a, const char* b);

@@ -13,6 +13,8 @@
 /// is kept apart so that "52" and "52 deg", "N m" and "N m/rad" cannot be mistaken for each other.
 enum { DIMENSIONS = 8 };
 
+enum { TYPED_SIZE = 1024 }; // a number alone may have 512 digits
+
 typedef struct unit {
     /// value in SI = typed value * scale / divisor; both exact, so that 375 mm^2 is the double
     /// nearest to 375e-6
@@ -266,8 +268,17 @@ const char* bt_unit_text(const char* token) {
     return t ? t->text : NULL;
 }
 
+/// The text in plain characters; itself when it is too long to be a quantity.
+static const char* plain_text(const char* text, char plain[TYPED_SIZE]) {
+    if (strlen(text) >= TYPED_SIZE / 2)
+        return text;
+    bt_text_plain(text, plain, TYPED_SIZE);
+    return plain;
+}
+
 bt_status bt_number_parse(const char* text, double* value) {
-    const char* start = skip_blanks(text);
+    char plain[TYPED_SIZE];
+    const char* start = skip_blanks(plain_text(text, plain));
     double number;
     const char* end = bt_text_scan_number(start, &number);
     if (end == start || *skip_blanks(end) != '\0' || !isfinite(number))
@@ -328,7 +339,8 @@ bt_status bt_unit_parse(const char* text, const char* token, double* value, char
         snprintf(why, why_size, "unit token \"%s\" is not in the table", token);
         return BT_ERR_INPUT;
     }
-    const char* start = skip_blanks(text);
+    char plain[TYPED_SIZE];
+    const char* start = skip_blanks(plain_text(text, plain));
     int length = (int)strlen(start);
     while (length > 0 && (start[length - 1] == ' ' || start[length - 1] == '\t'))
         --length;
@@ -361,10 +373,13 @@ void bt_unit_print(double value, const char* token, char* text, size_t size) {
 void bt_unit_print_as(double value, const char* typed, char* text, size_t size,
                       const char** unit_text) {
     double ignored;
-    const char* start = skip_blanks(typed);
+    char plain[TYPED_SIZE];
+    const char* start = typed + strcspn(typed, "0123456789.");
     *unit_text = skip_blanks(bt_text_scan_number(start, &ignored));
+    while ((unsigned char)**unit_text == 0xc2 && (unsigned char)(*unit_text)[1] == 0xa0)
+        *unit_text = skip_blanks(*unit_text + 2); // blanks that do not break
     unit u;
-    if (!unit_from_text(*unit_text, &u)) {
+    if (!unit_from_text(plain_text(*unit_text, plain), &u)) {
         *unit_text = "";
         u = (unit){.scale = 1, .divisor = 1};
     }

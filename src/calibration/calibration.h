@@ -123,8 +123,8 @@ typedef struct bt_fit {
     double sensitivity[BT_TARGET_MAX][BT_PARAMETER_MAX];
 
     /// Singular values of that matrix (all residual rows), largest first, and their directions in
-    /// the space of scaled parameters. A direction is identified when the data tell more than the
-    /// bounds: 1 / s below the standard deviation 1 / sqrt(12) of a number known to lie in 0..1.
+    /// the space of scaled parameters. A direction is identified by the criterion of a parameter
+    /// (below): where all directions are, every parameter is.
     double singular[BT_PARAMETER_MAX], direction[BT_PARAMETER_MAX][BT_PARAMETER_MAX];
     int identified_directions;
     /// From the covariance (J^T J + 12 I)^-1, which takes tolerances for standard deviations and

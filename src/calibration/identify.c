@@ -44,10 +44,17 @@ static gsl_matrix* make_matrix(const bt_calibration* c, const double* rows, cons
     return a;
 }
 
+/// The one criterion, for a parameter and for a combination of them alike: a standard error below
+/// half of the one before any data. Where all combinations meet it, every parameter does.
+static bool is_identified(double variance) {
+    return sqrt(variance * bounds_information) < 0.5;
+}
+
 static void store_directions(int n, const gsl_vector* s, const gsl_matrix* v, bt_fit* fit) {
     for (int i = 0; i < n; ++i) {
         fit->singular[i] = gsl_vector_get(s, (size_t)i);
-        fit->identified_directions += fit->singular[i] > sqrt(bounds_information);
+        const double information = fit->singular[i] * fit->singular[i] + bounds_information;
+        fit->identified_directions += is_identified(1 / information);
         // the sign of a direction is free: its largest part is made positive
         int largest = 0;
         for (int k = 0; k < n; ++k) {
@@ -74,7 +81,7 @@ static void store_errors(const bt_calibration* c, bt_fit* fit) {
     for (int a = 0; a < n; ++a) {
         const double variance = covariance(fit, n, a, a);
         fit->standard_error[a] = sqrt(variance) * (c->parameters[a].upper - c->parameters[a].lower);
-        fit->identified[a] = sqrt(variance * bounds_information) < 0.5;
+        fit->identified[a] = is_identified(variance);
         for (int b = 0; b < n; ++b)
             fit->correlation[a][b] =
                 covariance(fit, n, a, b) / sqrt(variance * covariance(fit, n, b, b));

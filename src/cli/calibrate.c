@@ -1,5 +1,6 @@
 #include "base/clock.h"
 #include "cli/cli.h"
+#include "cli/output.h"
 
 #include "base/directory.h"
 #include "base/units.h"
@@ -55,8 +56,8 @@ static void print_parameters(const bt_calibration* c, const bt_fit* fit) {
         printf("%-44s %-14s %-14s %-22s %s\n", p->path, start, found, shown,
                fit->identified[k] ? "identified" : "NOT identified");
     }
-    printf(
-        "(in brackets: of the standard error before any data, when only the bounds are known)\n");
+    printf("(in brackets: of the standard error before any data, when only the bounds are known; "
+           "identified: below 50 %%)\n");
 }
 
 static void print_sensitivity(const bt_calibration* c, const bt_fit* fit) {
@@ -77,8 +78,8 @@ static void print_sensitivity(const bt_calibration* c, const bt_fit* fit) {
 }
 
 static void print_directions(const bt_calibration* c, const bt_fit* fit) {
-    printf("\nsingular directions: the data identify %d of %d\n", fit->identified_directions,
-           c->parameter_count);
+    printf("\ncombinations of parameters: the data identify %d of %d, by the same criterion\n",
+           fit->identified_directions, c->parameter_count);
     for (int i = 0; i < c->parameter_count; ++i) {
         printf("  %10.3g  %-14s", fit->singular[i],
                i < fit->identified_directions ? "identified" : "not identified");
@@ -226,7 +227,7 @@ static bt_status calibrate(const bt_command* command, const bt_calibration* c, c
     if (status == BT_OK && command->json) {
         bt_json json = {.out = stdout};
         write_fit(&json, c, fit, seconds, file);
-    } else if (status == BT_OK && !command->quiet)
+    } else if (status == BT_OK)
         print_fit(c, fit, seconds, file);
     free(fit);
     return status;
@@ -235,7 +236,7 @@ static bt_status calibrate(const bt_command* command, const bt_calibration* c, c
 /// Fits and writes the overlay: where -o says, or calibrated.yaml in the study directory.
 static bt_status calibrate_into(const bt_command* command, const bt_study* study,
                                 const bt_calibration* c) {
-    if (command->output)
+    if (bt_output_kind(command->output) == BT_OUTPUT_VALUES)
         return calibrate(command, c, command->output);
     char file[BT_FILE_PATH_MAX];
     bt_diag diag = bt_stderr_diag();
@@ -278,5 +279,6 @@ const bt_verb bt_verb_calibrate = {
         "What is found goes into calibrated.yaml in the study directory, or where -o says.",
     .least_words = 2,
     .most_words = 2,
+    .outputs = BT_OUTPUT_VALUES | BT_OUTPUT_DIRECTORY,
     .run = run,
 };

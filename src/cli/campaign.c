@@ -1,5 +1,6 @@
 #include "base/units.h"
 #include "cli/chain.h"
+#include "cli/output.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -32,11 +33,10 @@ static bt_status print(bt_chain* chain, int64_t total, const bt_ledger_counts* c
     BT_TRY(bt_study_directory_file(&chain->directory, BT_LEDGER_NAME, path));
     snprintf(hash_text, sizeof hash_text, "%016" PRIx64, hash);
     if (!chain->command->json) {
-        if (!chain->command->quiet)
-            printf("%lld of %lld landings: %lld engaged, %lld missed, %lld failed\n"
-                   "ledger %s (content %s)\n",
-                   (long long)counts->runs, (long long)total, (long long)counts->engaged,
-                   (long long)counts->missed, (long long)counts->failed, path, hash_text);
+        printf("%lld of %lld landings: %lld engaged, %lld missed, %lld failed\n"
+               "ledger %s (content %s)\n",
+               (long long)counts->runs, (long long)total, (long long)counts->engaged,
+               (long long)counts->missed, (long long)counts->failed, path, hash_text);
         return BT_OK;
     }
     bt_json json = {.out = stdout};
@@ -130,5 +130,6 @@ const bt_verb bt_verb_campaign = {
     .options = options,
     .least_words = 1,
     .most_words = BT_WORDS_MAX,
+    .outputs = BT_OUTPUT_DIRECTORY,
     .run = run,
 };

@@ -1,6 +1,7 @@
 #include "campaign/design.h"
 #include "campaign/executor.h"
 #include "cli/cli.h"
+#include "cli/output.h"
 #include "landing/stable_step.h"
 #include "report/rig_report.h"
 
@@ -167,7 +168,7 @@ static void print_rigs(const bt_command* command, const bt_study* study) {
                 bt_json_string(&json, NULL, bt_rig_keys[kind]);
         bt_json_end_array(&json);
         bt_json_end_object(&json);
-    } else if (!command->quiet) {
+    } else {
         printf("%s\n", study->title);
         for (int kind = 0; kind < BT_RIG_COUNT; ++kind)
             if (study->rig_inputs[kind].given)
@@ -197,7 +198,7 @@ static bt_status check(const bt_command* command, const bt_study* study) {
     BT_TRY(try_ends(study, &diag));
     if (command->json)
         print_json(study, runs, steps, step_count);
-    else if (!command->quiet)
+    else
         print_text(study, runs, steps, step_count);
     return BT_OK;
 }
@@ -222,5 +223,6 @@ const bt_verb bt_verb_check = {
         "describes rigs only (see `bolter rig --help') is checked as such.",
     .least_words = 1,
     .most_words = 1,
+    .outputs = BT_OUTPUT_DIRECTORY,
     .run = run,
 };

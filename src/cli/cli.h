@@ -23,6 +23,8 @@ typedef struct bt_command {
     const char* sets[BT_SETS_MAX];
     char overlay[16384]; ///< texts of `sets` that were read from files
     size_t overlay_used;
+    int set_file_count;
+    const char* set_files[BT_SETS_MAX]; ///< files of --set @FILE
     bool json, quiet;
     const char* output;                     ///< -o; NULL when not given
     const char* option[BT_OWN_OPTIONS_MAX]; ///< own options: argument, "" for a flag, or NULL
@@ -35,6 +37,7 @@ typedef struct bt_verb {
     const char* text;                  ///< what `bolter VERB --help` says
     const struct argp_option* options; ///< own options, or NULL
     int least_words, most_words;
+    int outputs; ///< what -o may name: BT_OUTPUT_... (output.h); 0: nothing is written
     bt_status (*run)(const bt_command* command);
 } bt_verb;
 
@@ -58,8 +61,8 @@ bool bt_error_was_said(void);
 void bt_say_error(const bt_command* command, const char* format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/// Reads the study of a command (first word, --set, -o); says everything that is wrong with it.
-/// BT_OK: the caller owns it (bt_study_destroy).
+/// Reads the study of a command (first word, --set, -o); says everything that is wrong with it, or
+/// in one line that it describes rigs and no landing. BT_OK: the caller owns it (bt_study_destroy).
 BT_CHECKED bt_status bt_command_study(const bt_command* command, bt_study* study);
 
 /// The same for what needs no landing: bt_study_read_rigs.
@@ -68,9 +71,6 @@ BT_CHECKED bt_status bt_command_rigs(const bt_command* command, bt_study* study)
 /// Reports a wrong use of a verb and returns BT_ERR_ARG.
 bt_status bt_usage_error(const bt_command* command, const char* format, ...)
     __attribute__((format(printf, 2, 3)));
-
-/// For a verb that only prints: -o is a wrong use.
-bt_status bt_refuse_output(const bt_command* command);
 
 /// A whole number of an option; false (said on stderr) when it is not one from `least` on.
 bool bt_whole_number(const bt_command* command, const char* name, const char* text, int64_t least,

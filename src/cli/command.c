@@ -1,3 +1,4 @@
+#include "cli/output.h"
 #include "cli/overlay.h"
 
 #include "base/units.h"
@@ -6,16 +7,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static const struct argp_option common_options[] = {
     {"set", 's', "PATH=VALUE", 0,
      "change one key of the study, for example --set landing.pitch='4 deg'; @FILE reads lines "
      "PATH: VALUE; may be repeated",
      10},
-    {"output", 'o', "PATH", 0, "where results go (default: a directory named after the study)", 10},
+    {"output", 'o', "PATH", 0,
+     "where results go, by suffix: FILE.h5 time histories, FILE.csv the table, else a directory "
+     "(default: one named after the study)",
+     10},
     {"json", 'j', 0, 0, "print one JSON object on standard output and nothing else", 10},
-    {"quiet", 'q', 0, 0, "no progress, no remarks; errors are still printed", 10},
+    {"quiet", 'q', 0, 0, "no progress, no remarks; results and errors are still printed", 10},
     {0},
 };
 
@@ -34,6 +37,8 @@ static error_t parse_option(int key, char* argument, struct argp_state* state) {
     switch (key) {
     case 's':
         if (*argument == '@') {
+            if (command->set_file_count < BT_SETS_MAX)
+                command->set_files[command->set_file_count++] = argument + 1;
             const bt_status status = bt_overlay_read(command, argument + 1);
             if (status != BT_OK)
                 exit(bt_exit_code(status));
@@ -139,46 +144,34 @@ bt_diag bt_stderr_diag(void) {
     return (bt_diag){.sink = print_message};
 }
 
-typedef bt_status study_reader(const char* path, const char* const* sets, int set_count,
-                               bt_study* study, bt_diag* diag);
-
-/// Whether -o names a file that the command reads: what it writes would take its place.
-static bool is_input(const bt_command* command) {
-    struct stat output, input;
-    if (stat(command->output, &output) != 0 || S_ISDIR(output.st_mode))
-        return false;
-    for (int i = 0; i < command->word_count; ++i)
-        if (stat(command->words[i], &input) == 0 && input.st_dev == output.st_dev &&
-            input.st_ino == output.st_ino)
-            return true;
-    return false;
-}
-
-static bt_status read_study(const bt_command* command, study_reader* read, bt_study* study) {
+bt_status bt_command_rigs(const bt_command* command, bt_study* study) {
     bt_diag diag = bt_stderr_diag();
     const char* file = command->words[0];
-    if (command->output && strlen(command->output) >= sizeof study->directory)
-        return bt_usage_error(command, "-o: the name is too long");
-    if (command->output && is_input(command))
-        return bt_usage_error(command, "-o: %s is read by this command and would be lost",
-                              command->output);
-    const bt_status status = read(file, command->sets, command->set_count, study, &diag);
+    bt_status status = bt_study_read_rigs(file, command->sets, command->set_count, study, &diag);
     if (status != BT_OK) {
         fprintf(stderr, "%s: %d error%s, nothing was run\n", file, diag.errors,
                 diag.errors == 1 ? "" : "s");
         return status;
     }
-    if (command->output)
+    status = bt_output_spare(command, study);
+    if (status != BT_OK)
+        bt_study_destroy(study);
+    else if (bt_output_kind(command->output) == BT_OUTPUT_DIRECTORY)
         snprintf(study->directory, sizeof study->directory, "%s", command->output);
-    return BT_OK;
+    return status;
 }
 
 bt_status bt_command_study(const bt_command* command, bt_study* study) {
-    return read_study(command, bt_study_read, study);
-}
-
-bt_status bt_command_rigs(const bt_command* command, bt_study* study) {
-    return read_study(command, bt_study_read_rigs, study);
+    BT_TRY(bt_command_rigs(command, study));
+    if (!study->rigs_only)
+        return BT_OK;
+    bt_diag diag = bt_stderr_diag();
+    bt_diag_add(&diag, BT_ERROR, (bt_where){.file = command->words[0]},
+                "describes tests on rigs and no landing: there is no `landing:' in it; run it with "
+                "bolter rig %s",
+                command->words[0]);
+    bt_study_destroy(study);
+    return BT_ERR_INPUT;
 }
 
 bt_status bt_usage_error(const bt_command* command, const char* format, ...) {
@@ -188,14 +181,6 @@ bt_status bt_usage_error(const bt_command* command, const char* format, ...) {
     va_end(args);
     fprintf(stderr, "Try `bolter %s --help' for more information.\n", command->verb->name);
     return BT_ERR_ARG;
-}
-
-bt_status bt_refuse_output(const bt_command* command) {
-    return command->output ? bt_usage_error(command,
-                                            "writes no files; take what it prints: "
-                                            "bolter %s ... > FILE",
-                                            command->verb->name)
-                           : BT_OK;
 }
 
 bool bt_whole_number(const bt_command* command, const char* name, const char* text, int64_t least,

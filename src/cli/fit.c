@@ -1,4 +1,5 @@
 #include "cli/chain.h"
+#include "cli/output.h"
 #include "report/table.h"
 
 #include <stdio.h>
@@ -80,7 +81,7 @@ static bt_status fit(bt_chain* chain) {
     BT_TRY(bt_stage_fit(&chain->directory, chain->command->option[0] != NULL, &surrogate, NULL));
     if (chain->command->json)
         write_json(&surrogate);
-    else if (!chain->command->quiet)
+    else
         bt_surrogate_print(stdout, &surrogate);
     bt_surrogate_destroy(&surrogate);
     return BT_OK;
@@ -110,5 +111,6 @@ const bt_verb bt_verb_fit = {
     .options = options,
     .least_words = 1,
     .most_words = 1,
+    .outputs = BT_OUTPUT_DIRECTORY,
     .run = run,
 };

@@ -1,8 +1,19 @@
+#include "base/directory.h"
 #include "cli/cli.h"
+#include "cli/output.h"
 #include "report/history.h"
 #include "report/landing_report.h"
 
 #include <stdio.h>
+
+/// Into the file of -o, or as landing.h5 into its directory.
+static bt_status write_history(const bt_command* command, const bt_study* study,
+                               const bt_history* history, const bt_landing_result* result,
+                               bt_diag* diag) {
+    char path[BT_FILE_PATH_MAX];
+    BT_TRY(bt_output_path(command, "landing.h5", path, diag));
+    return bt_history_write(history, path, study, result, diag);
+}
 
 static bt_status land(const bt_command* command, const bt_study* study, bt_history* history) {
     bt_diag diag = bt_stderr_diag();
@@ -14,13 +25,13 @@ static bt_status land(const bt_command* command, const bt_study* study, bt_histo
                                      history ? bt_history_observe : NULL, history, &diag);
     bt_lander_destroy(lander);
     if (status == BT_OK && history)
-        status = bt_history_write(history, command->output, study, &result, &diag);
+        status = write_history(command, study, history, &result, &diag);
     if (status != BT_OK)
         return status;
     if (command->json) {
         bt_json json = {.out = stdout};
         bt_landing_write_json(&json, &result);
-    } else if (!command->quiet)
+    } else
         bt_landing_print(stdout, &result);
     if (result.outcome != BT_FAILED)
         return BT_OK;
@@ -54,5 +65,6 @@ const bt_verb bt_verb_land = {
             "The exit code is 4 when the computation diverged.",
     .least_words = 1,
     .most_words = 1,
+    .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_DIRECTORY,
     .run = run,
 };

@@ -1,4 +1,4 @@
-#include "cli/cli.h"
+#include "cli/output.h"
 #include "cli/version.h"
 
 #include "base/arithmetic.h"
@@ -119,7 +119,9 @@ static int run_verb(const bt_verb* verb, int argc, char** argv) {
         return bt_exit_code(BT_ERR_INTERNAL);
     }
     catch_signals();
-    bt_status status = verb->run(&command);
+    bt_status status = bt_output_check(&command, verb->outputs);
+    if (status == BT_OK)
+        status = verb->run(&command);
     if (status != BT_OK && !bt_error_was_said())
         fprintf(stderr, "bolter %s: %s\n", verb->name, bt_status_text(status));
     return bt_exit_code(status);

@@ -164,7 +164,6 @@ static bt_status run(const bt_command* command) {
     const char* samples = command->option[OPTION_SAMPLES];
     if (samples && !bt_whole_number(command, "--samples", samples, 1, &n.count))
         return BT_ERR_ARG;
-    BT_TRY(bt_refuse_output(command));
     if (!all_known(command, command->option[OPTION_VARIANTS]))
         return BT_ERR_ARG;
     if (n.count > 1000000)

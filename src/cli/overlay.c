@@ -43,7 +43,8 @@ bt_status bt_overlay_read(bt_command* command, const char* file) {
     bt_diag diag = bt_stderr_diag();
     BT_TRY(bt_file_read(file, &text, NULL, &diag));
     int number = 0;
-    for (char *line = text, *next; line; line = next) {
+    char* start = strncmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text; // byte order mark
+    for (char *line = start, *next; line; line = next) {
         next = strchr(line, '\n');
         if (next)
             *next++ = '\0';

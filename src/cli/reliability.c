@@ -1,4 +1,5 @@
 #include "cli/chain.h"
+#include "cli/output.h"
 #include "report/reliability_report.h"
 
 #include <stdio.h>
@@ -131,5 +132,6 @@ const bt_verb bt_verb_reliability = {
     .options = options,
     .least_words = 1,
     .most_words = 1,
+    .outputs = BT_OUTPUT_DIRECTORY,
     .run = run,
 };

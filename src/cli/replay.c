@@ -1,5 +1,6 @@
 #include "base/units.h"
 #include "cli/chain.h"
+#include "cli/output.h"
 #include "report/history.h"
 #include "report/landing_report.h"
 
@@ -45,7 +46,7 @@ static bt_status replay(bt_chain* chain, const bt_ledger_row* row, bt_history* h
     if (command->json) {
         bt_json json = {.out = stdout};
         bt_landing_write_json(&json, &result);
-    } else if (!command->quiet) {
+    } else {
         const bt_axes axes = bt_design_axes(&chain->study);
         printf("run %lld, the same to the bit (state %016" PRIx64 ")\n", (long long)row->run,
                result.state_hash);
@@ -101,5 +102,6 @@ const bt_verb bt_verb_replay = {
     .options = options,
     .least_words = 2,
     .most_words = 2,
+    .outputs = BT_OUTPUT_DIRECTORY,
     .run = run,
 };

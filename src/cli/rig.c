@@ -1,5 +1,7 @@
 #include "base/directory.h"
+#include "base/text.h"
 #include "cli/cli.h"
+#include "cli/output.h"
 #include "report/rig_report.h"
 
 #include <stdio.h>
@@ -19,17 +21,12 @@ static bool find_kind(const char* word, bt_rig_kind* kind) {
     return false;
 }
 
-static bool names_a_file(const char* output) {
-    const size_t length = output ? strlen(output) : 0;
-    return length > 3 && strcmp(output + length - 3, ".h5") == 0;
-}
-
 /// Histories where -o says; figures into the study directory unless only a file is wanted.
 static bt_status write_files(const bt_command* command, const bt_study* study,
                              const bt_rig_record* record, const bt_rig_result* result,
                              const bt_rig_curves* curves, bt_diag* diag) {
     char folder[BT_FILE_PATH_MAX], path[BT_FILE_PATH_MAX], name[64];
-    if (names_a_file(command->output))
+    if (bt_output_kind(command->output) == BT_OUTPUT_HISTORIES)
         return bt_rig_record_write(record, command->output, study, result, diag);
     BT_TRY(bt_file_path(folder, study->directory, "figures"));
     BT_TRY(bt_directory_make(folder, diag));
@@ -54,7 +51,7 @@ static void print(const bt_command* command, const bt_study* study, const bt_rig
         bt_json_string(&json, "title", study->title);
         bt_rig_write_json(&json, result, record, curves, tolerance);
         bt_json_end_object(&json);
-    } else if (!command->quiet) {
+    } else {
         printf("%s: %s\n", bt_rig_keys[record->kind], study->title);
         bt_rig_print(stdout, result, record, curves, tolerance);
     }
@@ -91,19 +88,42 @@ static bt_status test(const bt_command* command, const bt_study* study, bt_rig_k
     return status;
 }
 
+/// The one rig that a study describes.
+static bt_status only_kind(const bt_command* command, const bt_study* study, bt_rig_kind* kind) {
+    char found[128] = "";
+    int count = 0;
+    for (int k = 0; k < BT_RIG_COUNT; ++k)
+        if (study->rig_inputs[k].given) {
+            *kind = (bt_rig_kind)k;
+            bt_text_append(found, sizeof found, "%s%s", count++ ? ", " : "", bt_rig_keys[k]);
+        }
+    if (count == 1)
+        return BT_OK;
+    if (count == 0)
+        return bt_usage_error(command, "%s describes no rig: there is no `rigs:' in it",
+                              command->words[0]);
+    return bt_usage_error(command, "%s describes %d rigs (%s): say which, as in bolter rig %s %s",
+                          command->words[0], count, found, bt_rig_keys[*kind], command->words[0]);
+}
+
 static bt_status run(const bt_command* typed) {
-    bt_rig_kind kind;
-    if (!find_kind(typed->words[0], &kind))
+    bt_rig_kind kind = BT_RIG_COUNT;
+    const bool named = find_kind(typed->words[0], &kind);
+    if (!named && typed->word_count == 2)
         return bt_usage_error(typed,
                               "\"%s\" is none of nose-drop, main-drop, hook-rebound, nose-static, "
                               "main-static",
                               typed->words[0]);
+    if (named && typed->word_count == 1)
+        return bt_usage_error(typed, "STUDY.yaml expected after %s", typed->words[0]);
     bt_command command = *typed;
-    command.words[0] = typed->words[1];
+    command.words[0] = typed->words[typed->word_count - 1];
     command.word_count = 1;
     bt_study study;
     BT_TRY(bt_command_rigs(&command, &study));
-    const bt_status status = test(&command, &study, kind);
+    bt_status status = named ? BT_OK : only_kind(&command, &study, &kind);
+    if (status == BT_OK)
+        status = test(&command, &study, kind);
     bt_study_destroy(&study);
     return status;
 }
@@ -111,10 +131,11 @@ static bt_status run(const bt_command* typed) {
 const bt_verb bt_verb_rig = {
     .name = "rig",
     .summary = "drop and static tests of the gear, rebound test of the hook",
-    .arguments = "nose-drop STUDY.yaml\nmain-drop STUDY.yaml\nhook-rebound STUDY.yaml\n"
+    .arguments = "STUDY.yaml\nnose-drop STUDY.yaml\nmain-drop STUDY.yaml\nhook-rebound STUDY.yaml\n"
                  "nose-static STUDY.yaml\nmain-static STUDY.yaml",
     .text =
-        "Runs one of the rigs that the study's `rigs:' describes and prints its metrics beside "
+        "Runs the rig that the study's `rigs:' describes, or the named one of several, and prints "
+        "its metrics beside "
         "the reference values given there, with errors in percent. The figures go into "
         "STUDY/figures (PNG, SVG, script and data), with the measured curves of "
         "`reference.curve' as points.\n\n"
@@ -126,7 +147,8 @@ const bt_verb bt_verb_rig = {
         "A file that holds `rigs:' and, under `aircraft:', only the leg or hook to be tested will "
         "do. The exit code is 4 when the computation diverged; a metric that misses its reference "
         "is marked, and is no error.",
-    .least_words = 2,
+    .least_words = 1,
     .most_words = 2,
+    .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_DIRECTORY,
     .run = run,
 };

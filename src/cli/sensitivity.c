@@ -331,7 +331,6 @@ static bt_status run(const bt_command* command) {
     const char* change = command->option[OPTION_CHANGE];
     if (samples && !bt_whole_number(command, "--samples", samples, 1, &t.count))
         return BT_ERR_ARG;
-    BT_TRY(bt_refuse_output(command));
     if (t.count > 1000000)
         return bt_usage_error(command, "--samples: at most 1000000");
     if (change && (bt_number_parse(change, &t.change) != BT_OK || !(t.change > 0 && t.change < 1)))

@@ -1,4 +1,5 @@
 #include "cli/chain.h"
+#include "cli/output.h"
 
 #include <stdio.h>
 
@@ -6,12 +7,13 @@
 static void print_more(const bt_surrogate* surrogate, const bt_campaign_progress* progress) {
     const int trained = surrogate->scores.train_count + surrogate->scores.holdout_count;
     if (trained > progress->done - progress->failed)
-        printf("ledger        %d landings of this and earlier runs, all of them used below\n",
-               trained);
+        printf(
+            "ledger        %d landings of this and earlier runs; the surrogate is trained on all\n",
+            trained);
 }
 
 static bt_status run_chain(bt_chain* chain) {
-    const bool talk = !chain->command->quiet && !chain->command->json;
+    const bool talk = !chain->command->json;
     bt_campaign_progress progress;
     BT_TRY(bt_chain_campaign(chain, 0, 1, &progress));
 
@@ -28,7 +30,7 @@ static bt_status run_chain(bt_chain* chain) {
     }
     const bt_status status = bt_chain_reliability(chain, false, &surrogate);
     bt_surrogate_destroy(&surrogate);
-    if (status == BT_OK && talk)
+    if (status == BT_OK && talk && !chain->command->quiet)
         printf("\nresults in %s\n", chain->study.directory);
     return status;
 }
@@ -53,5 +55,6 @@ const bt_verb bt_verb_study = {
             "reliability.json.",
     .least_words = 1,
     .most_words = 1,
+    .outputs = BT_OUTPUT_DIRECTORY,
     .run = run,
 };

@@ -1,4 +1,6 @@
 #include "cli/cli.h"
+#include "cli/output.h"
+#include "cli/values.h"
 
 #include "base/directory.h"
 #include "base/text.h"
@@ -185,7 +187,7 @@ static bt_status run_plan(const bt_command* command, const bt_study* study, cons
                         &bt_interrupted, &sweep, &diag));
     if (command->json)
         write_json(json, p, &sweep);
-    else if (!command->quiet)
+    else
         print_table(p, &sweep);
     for (int i = 0; i < count; ++i)
         *failed += sweep.rows[i].result.outcome == BT_FAILED;
@@ -227,9 +229,12 @@ static bt_status run(const bt_command* command) {
     const char *key = command->option[0], *values = command->option[1];
     if (!key != !values)
         return bt_usage_error(command, "--key and --values go together");
+    char list[4096] = "", why[512];
+    if (values && bt_values_expand(values, list, sizeof list, why, sizeof why) != BT_OK)
+        return bt_usage_error(command, "--values: %s", why);
     bt_study study;
     BT_TRY(bt_command_study(command, &study));
-    const plan own = own_plan(key ? key : "", values);
+    const plan own = own_plan(key ? key : "", list);
     const bt_status status =
         run_plans(command, &study, key ? &own : paper, key ? 1 : (int)PAPER_COUNT);
     bt_study_destroy(&study);
@@ -238,7 +243,10 @@ static bt_status run(const bt_command* command) {
 
 static const struct argp_option options[] = {
     {"key", BT_OPTION + 0, "PATH", 0, "the key to vary, for example landing.sink_speed", 1},
-    {"values", BT_OPTION + 1, "LIST", 0, "its values, for example '3.6 m/s, 4 m/s, 5 m/s'", 1},
+    {"values", BT_OPTION + 1, "LIST", 0,
+     "its values: '3.6, 4, 5 m/s', or a range: '0..8 deg' (nine values), '0..8 deg in 5', "
+     "'0..8 deg by 2'",
+     1},
     {0},
 };
 
@@ -257,5 +265,6 @@ const bt_verb bt_verb_sweep = {
     .options = options,
     .least_words = 1,
     .most_words = 1,
+    .outputs = BT_OUTPUT_DIRECTORY,
     .run = run,
 };

@@ -270,6 +270,44 @@ void bt_study_keys(bt_text_sink* write, void* user) {
     }
 }
 
+// --- one by one -----------------------------------------------------------------------------
+
+typedef struct finder {
+    const char *chapter, *part;
+    bt_key_text_visit* visit;
+    void* user;
+    int count;
+} finder;
+
+static bool is_within(const char* path, const char* part) {
+    const size_t length = part ? strlen(part) : 0;
+    return strncmp(path, part ? part : "", length) == 0 &&
+           (length == 0 || path[length] == '.' || path[length] == '\0');
+}
+
+static bool visit_field(void* user, const bt_field* field, const char* path, size_t offset) {
+    finder* f = user;
+    char whole[PATH_SIZE], cells[COLUMNS][CELL];
+    (void)offset;
+    snprintf(whole, sizeof whole, "%s.%s", f->chapter, path);
+    if (field->kind == BT_FIELD_GROUP || !is_within(whole, f->part))
+        return true;
+    fill_row(field, cells);
+    const bt_key_text key = {whole, cells[1], cells[2], cells[3], cells[4], field->text};
+    f->visit(f->user, &key);
+    ++f->count;
+    return true;
+}
+
+int bt_study_each_key(const char* part, bt_key_text_visit* visit, void* user) {
+    finder f = {.part = part, .visit = visit, .user = user};
+    for (int i = 0; i < CHAPTERS; ++i) {
+        f.chapter = chapters[i].name;
+        bt_group_walk(chapters[i].group, visit_field, &f);
+    }
+    return f.count;
+}
+
 // --- defaults -------------------------------------------------------------------------------
 
 /// Keys of which one must be given though each alone is optional: a value to start from.

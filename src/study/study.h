@@ -145,4 +145,14 @@ typedef void bt_text_sink(void* user, const char* text);
 void bt_study_keys(bt_text_sink* write, void* user);
 void bt_study_defaults(bt_text_sink* write, void* user);
 
+/// One key as the reference has it: texts, valid during the call.
+typedef struct bt_key_text {
+    const char *path, *unit, *fallback, *range, *equation, *meaning;
+} bt_key_text;
+
+/// Calls `visit` for every key that has a value, or for those of one part only: `part` is a path
+/// ("aircraft.hook", or one key's), NULL for all. Returns their number.
+typedef void bt_key_text_visit(void* user, const bt_key_text* key);
+int bt_study_each_key(const char* part, bt_key_text_visit* visit, void* user);
+
 #endif

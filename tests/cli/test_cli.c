@@ -31,8 +31,9 @@ static void help_and_version_are_no_errors(void** state) {
     assert_int_equal(bolter(f, "--version --verbose"), 0);
     assert_has(f->out, "sqlite");
     assert_has(f->out, "-ffp-contract=off");
-    static const char* const verbs[] = {"check",  "keys", "land",        "campaign",
-                                        "replay", "fit",  "reliability", "study"};
+    static const char* const verbs[] = {"check",     "keys",     "land",       "rig", "sweep",
+                                        "calibrate", "campaign", "replay",     "fit", "reliability",
+                                        "study",     "noise",    "sensitivity"};
     for (size_t i = 0; i < sizeof verbs / sizeof verbs[0]; ++i) {
         char arguments[64];
         snprintf(arguments, sizeof arguments, "%s --help", verbs[i]);
@@ -69,14 +70,27 @@ static void the_defaults_are_a_study_that_can_be_run(void** state) {
     assert_string_equal(f->err, "");
 }
 
+/// A command of the shell, "%" standing for the test's directory.
+static int system_in(const fixture* f, const char* command) {
+    char text[9000] = "";
+    for (const char* c = command; *c; ++c)
+        if (*c == '%')
+            strcat(text, f->directory);
+        else
+            strncat(text, c, 1);
+    return system(text);
+}
+
 static void what_a_command_reads_is_never_written_over(void** state) {
     fixture* f = *state;
     assert_int_equal(bolter(f, "keys --defaults"), 0);
     char* study = strdup(f->out);
     write_file(f, "study.yaml", study);
+    assert_int_equal(system_in(f, "ln %/study.yaml %/link.yaml"), 0);
     static const char* const commands[] = {"land %/study.yaml -o %/study.yaml",
                                            "rig nose-drop %/study.yaml -o %/study.yaml",
-                                           "calibrate %/study.yaml %/none.yaml -o %/study.yaml"};
+                                           "calibrate %/study.yaml %/none.yaml -o %/study.yaml",
+                                           "calibrate %/study.yaml %/none.yaml -o %/link.yaml"};
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; ++i) {
         assert_int_equal(bolter(f, commands[i]), 2);
         assert_has(f->err, "would be lost");
@@ -87,6 +101,93 @@ static void what_a_command_reads_is_never_written_over(void** state) {
     assert_string_equal(after, study);
     free(after);
     free(study);
+}
+
+/// Files that are included, that --set reads, or that are a user's own.
+static void no_file_of_the_users_is_replaced(void** state) {
+    fixture* f = *state;
+    assert_int_equal(system_in(f, "cp studies/reference/*.yaml %; ln -s deck.yaml %/deck.h5; "
+                                  "cp studies/reference/study.yaml %/mine.yaml; "
+                                  "echo 'landing.pitch: 4 deg' >%/set.yaml; echo mine >%/own.h5; "
+                                  "(cd % && md5sum *.yaml own.h5 >sums)"),
+                     0);
+    static const struct {
+        const char* command;
+        int code;
+    } rows[] = {
+        {"calibrate %/study.yaml %/calibration.yaml -o %/aircraft.yaml", 2},
+        {"land %/study.yaml -o %/deck.h5", 2},
+        {"calibrate %/study.yaml %/calibration.yaml --set @%/set.yaml -o %/set.yaml", 2},
+        {"land %/study.yaml -o %/own.h5", 5},
+        {"campaign %/mine.yaml -o % --set campaign.samples=1", 5},
+        {"land %/study.yaml -o %/deck.yaml", 2},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        if (bolter(f, rows[i].command) != rows[i].code)
+            fail_msg("%s: not %d\n%s", rows[i].command, rows[i].code, f->err);
+        assert_true(f->err[0] != '\0');
+    }
+    assert_int_equal(system_in(f, "cd % && md5sum --quiet -c sums"), 0);
+    // a file that Bolter wrote is replaced
+    assert_int_equal(bolter(f, "land %/study.yaml -o %/mine.h5"), 0);
+    assert_int_equal(bolter(f, "land %/study.yaml -o %/mine.h5"), 0);
+}
+
+static void output_is_by_suffix_in_every_verb(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "land " REFERENCE " -o %/l.vtp"), 2);
+    assert_has(f->err, "FILE.h5 (time histories), a directory");
+    assert_false(exists(f, "l.vtp"));
+    assert_int_equal(bolter(f, "rig nose-drop " REFERENCE " -o %/out.pvd"), 2);
+    assert_false(exists(f, "out.pvd"));
+    assert_int_equal(bolter(f, "campaign " REFERENCE " -o %/out.h5"), 2);
+    assert_int_equal(bolter(f, "land " REFERENCE " -o %/ref"), 0);
+    assert_true(exists(f, "ref/landing.h5"));
+}
+
+static void quiet_keeps_results(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "land " REFERENCE " -q"), 0);
+    assert_has(f->out, "margin");
+    assert_int_equal(bolter(f, "check " REFERENCE " -q"), 0);
+    assert_has(f->out, "stable step");
+}
+
+static void keys_of_a_part_and_for_programs(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "keys aircraft.hook.profile"), 0);
+    assert_has(f->out, "aircraft.hook.profile.head_angle");
+    assert_null(strstr(f->out, "aircraft.hook.length"));
+    assert_int_equal(bolter(f, "keys landing.pitch --json"), 0);
+    assert_has(f->out, "\"key\": \"landing.pitch\"");
+    assert_has(f->out, "\"unit\": \"rad\"");
+    assert_int_equal(bolter(f, "keys --json"), 0);
+    assert_has(f->out, "\"key\": \"rigs.nose_drop.sink_speed\"");
+    assert_int_equal(bolter(f, "keys landing.pich"), 2);
+    assert_has(f->err, "did you mean \"landing.pitch\"?");
+}
+
+static void a_byte_order_mark_in_a_set_file_is_skipped(void** state) {
+    fixture* f = *state;
+    write_file(f, "set.txt", "\xef\xbb\xbflanding.pitch: 4 deg\r\n");
+    assert_int_equal(bolter(f, "check " REFERENCE " --set @%/set.txt"), 0);
+}
+
+static void a_file_of_rigs_says_what_it_is(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "land studies/rigs/tr1154.yaml"), 3);
+    assert_has(f->err, "describes tests on rigs and no landing");
+    assert_has(f->err, "bolter rig studies/rigs/tr1154.yaml");
+    int lines = 0;
+    for (const char* c = f->err; *c; ++c)
+        lines += *c == '\n';
+    assert_int_equal(lines, 1);
+    assert_int_equal(bolter(f, "rig studies/rigs/currey.yaml -o %/results"), 0);
+    assert_has(f->out, "nose_static: Static curve");
+    assert_int_equal(bolter(f, "rig " REFERENCE), 2);
+    assert_has(f->err, "say which");
+    assert_int_equal(bolter(f, "rig nose-drop"), 2);
+    assert_has(f->err, "STUDY.yaml expected");
 }
 
 static void a_verb_that_only_prints_takes_no_o(void** state) {
@@ -332,6 +433,12 @@ int main(void) {
         TEST(the_defaults_are_a_study_that_can_be_run),
         TEST(what_a_command_reads_is_never_written_over),
         TEST(a_verb_that_only_prints_takes_no_o),
+        TEST(no_file_of_the_users_is_replaced),
+        TEST(output_is_by_suffix_in_every_verb),
+        TEST(quiet_keeps_results),
+        TEST(keys_of_a_part_and_for_programs),
+        TEST(a_byte_order_mark_in_a_set_file_is_skipped),
+        TEST(a_file_of_rigs_says_what_it_is),
         TEST(check_accepts_the_reference_and_prints_stable_steps),
         TEST(a_mesh_too_fine_for_the_memory_of_a_landing_is_refused),
         TEST(a_step_above_the_stable_one_is_refused_with_the_step_that_would_do),

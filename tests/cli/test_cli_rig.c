@@ -118,7 +118,7 @@ static void rig_file_is_no_study_of_landings(void** state) {
     assert_int_equal(bolter(f, "check " TR1154), 0);
     assert_has(f->out, "main_drop");
     assert_int_equal(bolter(f, "land " TR1154), 3);
-    assert_has(f->err, "missing");
+    assert_has(f->err, "describes tests on rigs and no landing");
 }
 
 /// What is wrong with a line of a rig file: refused by `check` with this place and reason.

@@ -46,6 +46,39 @@ static void sweep_without_gnuplot_leaves_data_and_script(void** state) {
     assert_false(exists(f, "study/figures/sweep_landing_pitch.png"));
 }
 
+static void sweep_takes_ranges_and_one_unit_for_a_list(void** state) {
+    fixture* f = *state;
+    static const struct {
+        const char* values;
+        int rows;
+        const char* last; ///< rad
+    } rows[] = {
+        {"0..8 deg in 3", 3, "0.1396"}, {"0..8 deg by 4", 3, "0.1396"}, {"0, 4 deg", 2, "0.0698"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char line[512];
+        snprintf(line, sizeof line,
+                 "sweep " REFERENCE " " COARSE
+                 "--json -o %%/study --key landing.pitch --values '%s'",
+                 rows[i].values);
+        assert_int_equal(bolter(f, line), 0);
+        int count = 0;
+        const char* last = f->out;
+        for (const char* at = f->out; (at = strstr(at, "\"value\": ")); ++at, ++count)
+            last = at;
+        assert_int_equal(count, rows[i].rows);
+        assert_int_equal(strncmp(last + strlen("\"value\": "), rows[i].last, 6), 0);
+    }
+    static const char* const wrong[] = {"0..8 deg in 1", "0..8 deg by -1", "0.. deg",
+                                        "0..8 deg by 1 m"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
+        char line[512];
+        snprintf(line, sizeof line,
+                 "sweep " REFERENCE " -o %%/study --key landing.pitch --values '%s'", wrong[i]);
+        assert_int_equal(bolter(f, line), 2);
+        assert_has(f->err, "FROM..TO UNIT by STEP");
+    }
+}
+
 static void sweep_refuses_what_it_cannot_vary(void** state) {
     fixture* f = *state;
     assert_int_equal(bolter(f, "sweep " REFERENCE " --key landing.pitch"), 2);
@@ -116,6 +149,7 @@ int main(void) {
         WITH_DIRECTORY(sweep_draws_the_papers_three_figures),
         WITH_DIRECTORY(sweep_prints_one_json_object),
         WITH_DIRECTORY(sweep_without_gnuplot_leaves_data_and_script),
+        WITH_DIRECTORY(sweep_takes_ranges_and_one_unit_for_a_list),
         WITH_DIRECTORY(sweep_refuses_what_it_cannot_vary),
         WITH_DIRECTORY(calibrate_writes_an_overlay_that_set_reads),
         WITH_DIRECTORY(calibrate_says_what_is_wrong),

@@ -306,8 +306,51 @@ static void tokens_have_texts(void** state) {
     assert_null(bt_unit_text("furlong"));
 }
 
+static void characters_of_documents_read_as_the_plain_ones(void** state) {
+    (void)state;
+    static const struct {
+        const char *text, *token;
+        double value;
+    } rows[] = {
+        {"5500 \u00b5m", "m", 5.5e-3},
+        {"5500 \u03bcm", "m", 5.5e-3},
+        {"\u22123.5 deg", "rad", -3.5 * M_PI / 180},
+        {"3.6\u00a0m/s", "mps", 3.6},
+        {"3.6\u202fm/s", "mps", 3.6},
+        {"9.81 m/s\u00b2", "mps2", 9.81},
+        {"2 N\u00b7m", "Nm", 2},
+        {"4 m s\u207b\u00b9", "mps", 4},
+        {"375 mm\u00b2", "m2", 375e-6},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        double value = 0;
+        char why[256] = "";
+        if (bt_unit_parse(rows[i].text, rows[i].token, &value, why, sizeof why) != BT_OK)
+            fail_msg("%s: %s", rows[i].text, why);
+        BT_ASSERT_NEAR(value, rows[i].value, 1e-15, 0);
+    }
+    double number = 0;
+    assert_int_equal(bt_number_parse("\u22122", &number), BT_OK);
+    assert_true(number == -2);
+    char text[40];
+    const char* unit = "";
+    bt_unit_print_as(-3.5 * M_PI / 180, "\u22123.5\u00a0deg", text, sizeof text, &unit);
+    assert_string_equal(text, "-3.5");
+    assert_string_equal(unit, "deg");
+}
+
+static void what_stands_behind_many_blanks_is_not_cut(void** state) {
+    (void)state;
+    char text[3000], why[256];
+    double value = 0;
+    snprintf(text, sizeof text, "3.6 m/s%1500sfoo", "");
+    assert_int_equal(bt_unit_parse(text, "mps", &value, why, sizeof why), BT_ERR_INPUT);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(characters_of_documents_read_as_the_plain_ones),
+        cmocka_unit_test(what_stands_behind_many_blanks_is_not_cut),
         cmocka_unit_test(every_unit_is_one_exact_factor),
         cmocka_unit_test(derived_imperial_units_follow_from_their_definitions),
         cmocka_unit_test(a_unit_may_be_written_in_several_ways),
