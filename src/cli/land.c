@@ -65,6 +65,6 @@ const bt_verb bt_verb_land = {
             "The exit code is 4 when the computation diverged.",
     .least_words = 1,
     .most_words = 1,
-    .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_DIRECTORY,
+    .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_TABLE | BT_OUTPUT_DIRECTORY,
     .run = run,
 };

@@ -3,6 +3,7 @@
 #include "base/directory.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -11,7 +12,7 @@ static const struct {
     int kind;
 } kinds[] = {
     {".h5", "FILE.h5 (time histories)", BT_OUTPUT_HISTORIES},
-    {".csv", "FILE.csv (the table)", BT_OUTPUT_TABLE},
+    {".csv", "FILE.csv (table or histories)", BT_OUTPUT_TABLE},
     {".yaml", "FILE.yaml (the values found)", BT_OUTPUT_VALUES},
     {NULL, "a directory", BT_OUTPUT_DIRECTORY},
 };
@@ -96,4 +97,22 @@ bt_status bt_output_path(const bt_command* command, const char* name, char* path
     }
     BT_TRY(bt_directory_make(command->output, diag));
     return bt_file_path(path, command->output, name);
+}
+
+bt_status bt_output_table(const bt_command* command, const bt_report_table* table, bt_diag* diag) {
+    if (bt_output_kind(command->output) != BT_OUTPUT_TABLE)
+        return BT_OK;
+    char* text = NULL;
+    size_t size = 0;
+    FILE* out = open_memstream(&text, &size);
+    if (!out)
+        return BT_ERR_MEMORY;
+    bt_status status = bt_report_table_csv(table, out);
+    if (fclose(out) != 0 && status == BT_OK)
+        status = BT_ERR_MEMORY;
+    // the names of its columns are the mark of a table that Bolter wrote
+    if (status == BT_OK)
+        status = bt_file_replace(command->output, text, size, strcspn(text, "\n") + 1, diag);
+    free(text);
+    return status;
 }

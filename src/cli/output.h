@@ -3,6 +3,7 @@
 #define BT_CLI_OUTPUT_H
 
 #include "cli/cli.h"
+#include "report/table.h"
 
 #include <stdbool.h>
 
@@ -28,5 +29,9 @@ BT_CHECKED bt_status bt_output_spare(const bt_command* command, const bt_study* 
 /// FILE of -o, or DIRECTORY/NAME (made when it is not there), into BT_FILE_PATH_MAX bytes.
 BT_CHECKED bt_status bt_output_path(const bt_command* command, const char* name, char* path,
                                     bt_diag* diag);
+
+/// Writes the table to FILE.csv of -o, when that is what -o names.
+BT_CHECKED bt_status bt_output_table(const bt_command* command, const bt_report_table* table,
+                                     bt_diag* diag);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void show(void* user, int done, int total) {
     bt_progress_show(user, done == total, "%d of %d conditions", done, total);
@@ -19,6 +20,18 @@ static bt_status copy_out(bt_chain* chain, const char* name) {
     return BT_OK;
 }
 
+/// reliability.csv of the study directory to the file of -o.
+static bt_status export_table(bt_chain* chain) {
+    char path[BT_FILE_PATH_MAX], *text = NULL;
+    size_t size = 0;
+    BT_TRY(bt_study_directory_file(&chain->directory, "reliability.csv", path));
+    BT_TRY(bt_file_read(path, &text, &size, &chain->diag));
+    const bt_status status =
+        bt_file_replace(chain->command->output, text, size, strcspn(text, "\n") + 1, &chain->diag);
+    free(text);
+    return status;
+}
+
 bt_status bt_chain_reliability(bt_chain* chain, bool again, const bt_surrogate* surrogate) {
     const bt_command* command = chain->command;
     bt_progress line = bt_progress_start("reliability", command->quiet || command->json);
@@ -28,60 +41,62 @@ bt_status bt_chain_reliability(bt_chain* chain, bool again, const bt_surrogate* 
                                         .watch = show,
                                         .watch_user = &line};
     BT_TRY(bt_stage_reliability(&chain->directory, surrogate, &stage, NULL));
+    if (bt_output_kind(command->output) == BT_OUTPUT_TABLE)
+        BT_TRY(export_table(chain));
     return copy_out(chain, command->json ? "reliability.json" : "reliability.txt");
 }
 
 // --- indices ----------------------------------------------------------------------------------
 
-static void print_indices(const bt_study* study, const bt_sobol_result* r) {
-    printf("%-26s %-26s %s\n", "input", "alone", "with all its interactions");
-    for (int k = 0; k < r->dims; ++k)
-        if (study->inputs[k].random)
-            printf("%-26s %6.3f [%6.3f, %6.3f]    %6.3f [%6.3f, %6.3f]\n", study->inputs[k].path,
-                   r->first[k].value, r->first[k].ci95.least, r->first[k].ci95.greatest,
-                   r->total[k].value, r->total[k].ci95.least, r->total[k].ci95.greatest);
-    printf("shares of the variance of the surrogate's outcomes, R = %.4f, %lld samples; 95 %% "
-           "intervals of the sampling alone\n",
-           r->mean, (long long)r->evaluations);
-}
+static const bt_column columns[] = {
+    {.name = "path", .head = "input", .unit = ""},
+    {.name = "first", .head = "alone", .unit = "", .decimals = 3, .interval = true},
+    {.name = "total",
+     .head = "with all its interactions",
+     .unit = "",
+     .decimals = 3,
+     .interval = true},
+};
 
-static void write_index(bt_json* json, const char* key, const bt_index* index) {
-    char limits[32];
-    snprintf(limits, sizeof limits, "%s_ci95", key);
-    bt_json_number(json, key, index->value);
-    bt_json_begin_array(json, limits);
-    bt_json_number(json, NULL, index->ci95.least);
-    bt_json_number(json, NULL, index->ci95.greatest);
-    bt_json_end_array(json);
-}
-
-static void write_indices(const bt_study* study, const bt_sobol_result* r) {
-    bt_json json = {.out = stdout};
-    bt_json_begin_object(&json, NULL);
-    bt_json_number(&json, "mean", r->mean);
-    bt_json_integer(&json, "evaluations", r->evaluations);
-    bt_json_begin_array(&json, "inputs");
+static bt_report_table* index_table(const bt_study* study, const bt_sobol_result* r) {
+    char samples[32];
+    bt_report_table* table = bt_report_table_create(NULL, columns, 3);
     for (int k = 0; k < r->dims; ++k) {
         if (!study->inputs[k].random)
             continue;
-        bt_json_begin_object(&json, NULL);
-        bt_json_string(&json, "path", study->inputs[k].path);
-        write_index(&json, "first", &r->first[k]);
-        write_index(&json, "total", &r->total[k]);
-        bt_json_end_object(&json);
+        bt_report_table_row(table);
+        bt_report_table_text(table, study->inputs[k].path);
+        bt_report_table_interval(table, r->first[k].value, &r->first[k].ci95);
+        bt_report_table_interval(table, r->total[k].value, &r->total[k].ci95);
     }
-    bt_json_end_array(&json);
+    bt_report_table_remark(table,
+                           "shares of the variance of the surrogate's outcomes, R = %.4f, %s "
+                           "samples; 95 %% intervals of the sampling alone",
+                           r->mean, bt_count_text((int64_t)r->evaluations, samples));
+    return table;
+}
+
+static bt_status show_indices(bt_chain* chain, const bt_sobol_result* r,
+                              const bt_report_table* table) {
+    BT_TRY(bt_output_table(chain->command, table, &chain->diag));
+    if (!chain->command->json)
+        return bt_report_table_print(table, stdout);
+    bt_json json = {.out = stdout};
+    bt_json_begin_object(&json, NULL);
+    bt_json_number(&json, "mean", r->mean);
+    bt_json_integer(&json, "evaluations", (int64_t)r->evaluations);
+    BT_TRY(bt_report_table_json(table, &json, "inputs"));
     bt_json_end_object(&json);
+    return BT_OK;
 }
 
 static bt_status run_indices(bt_chain* chain, const bt_surrogate* surrogate) {
     bt_sobol_result result;
     BT_TRY(bt_stage_indices(&chain->directory, surrogate, &result));
-    if (chain->command->json)
-        write_indices(&chain->study, &result);
-    else
-        print_indices(&chain->study, &result);
-    return BT_OK;
+    bt_report_table* table = index_table(&chain->study, &result);
+    const bt_status status = show_indices(chain, &result, table);
+    bt_report_table_destroy(table);
+    return status;
 }
 
 // --- verb -------------------------------------------------------------------------------------
@@ -132,6 +147,6 @@ const bt_verb bt_verb_reliability = {
     .options = options,
     .least_words = 1,
     .most_words = 1,
-    .outputs = BT_OUTPUT_DIRECTORY,
+    .outputs = BT_OUTPUT_TABLE | BT_OUTPUT_DIRECTORY,
     .run = run,
 };

@@ -1,7 +1,7 @@
 #include "base/directory.h"
-#include "base/text.h"
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cli/rig_sweep.h"
 #include "report/rig_report.h"
 
 #include <stdio.h>
@@ -35,7 +35,7 @@ static bt_status write_files(const bt_command* command, const bt_study* study,
         BT_TRY(bt_file_path(path, study->directory, name));
         BT_TRY(bt_rig_record_write(record, path, study, result, diag));
     }
-    BT_TRY(bt_rig_draw(record, curves, folder, diag));
+    BT_TRY(bt_rig_draw(study, record, curves, folder, diag));
     if (!command->json && !command->quiet)
         printf("figures: %s\n", folder);
     return BT_OK;
@@ -88,24 +88,6 @@ static bt_status test(const bt_command* command, const bt_study* study, bt_rig_k
     return status;
 }
 
-/// The one rig that a study describes.
-static bt_status only_kind(const bt_command* command, const bt_study* study, bt_rig_kind* kind) {
-    char found[128] = "";
-    int count = 0;
-    for (int k = 0; k < BT_RIG_COUNT; ++k)
-        if (study->rig_inputs[k].given) {
-            *kind = (bt_rig_kind)k;
-            bt_text_append(found, sizeof found, "%s%s", count++ ? ", " : "", bt_rig_keys[k]);
-        }
-    if (count == 1)
-        return BT_OK;
-    if (count == 0)
-        return bt_usage_error(command, "%s describes no rig: there is no `rigs:' in it",
-                              command->words[0]);
-    return bt_usage_error(command, "%s describes %d rigs (%s): say which, as in bolter rig %s %s",
-                          command->words[0], count, found, bt_rig_keys[*kind], command->words[0]);
-}
-
 static bt_status run(const bt_command* typed) {
     bt_rig_kind kind = BT_RIG_COUNT;
     const bool named = find_kind(typed->words[0], &kind);
@@ -121,7 +103,7 @@ static bt_status run(const bt_command* typed) {
     command.word_count = 1;
     bt_study study;
     BT_TRY(bt_command_rigs(&command, &study));
-    bt_status status = named ? BT_OK : only_kind(&command, &study, &kind);
+    bt_status status = named ? BT_OK : bt_rig_only(&command, &study, &kind);
     if (status == BT_OK)
         status = test(&command, &study, kind);
     bt_study_destroy(&study);

@@ -13,7 +13,7 @@ typedef struct trace {
     bool second; ///< axis at the right
 } trace;
 
-enum { TRACES_MAX = 2 };
+enum { TRACES_MAX = 2, TITLE_SIZE = 400 };
 
 /// One of the rig's figures, over time or over the stroke.
 typedef struct plan {
@@ -27,7 +27,7 @@ typedef struct plan {
 static const plan plans[] = {
     {BT_RIG_NOSE_DROP,
      "nose_drop_stroke",
-     "Drop of the nose gear: strut and centre of gravity (Fig. 9)",
+     "Drop of the nose gear: strut and centre of gravity",
      "stroke, sinkage, mm",
      NULL,
      false,
@@ -36,7 +36,7 @@ static const plan plans[] = {
       {"sinkage_m", "sinkage of the centre of gravity", 1e3, false}}},
     {BT_RIG_NOSE_DROP,
      "nose_drop_tyre",
-     "Drop of the nose gear: tyre (Fig. 10)",
+     "Drop of the nose gear: tyre",
      "compression, mm",
      "load, kN",
      false,
@@ -53,7 +53,7 @@ static const plan plans[] = {
      {{"strut_force_N", "load of the strut", 1e-3, false}}},
     {BT_RIG_MAIN_DROP,
      "main_drop_stroke",
-     "Drop of the main gear: strut and centre of gravity (Fig. 11)",
+     "Drop of the main gear: strut and centre of gravity",
      "stroke, sinkage, mm",
      NULL,
      false,
@@ -62,7 +62,7 @@ static const plan plans[] = {
       {"sinkage_m", "sinkage of the centre of gravity", 1e3, false}}},
     {BT_RIG_MAIN_DROP,
      "main_drop_tyre",
-     "Drop of the main gear: tyre (Fig. 12)",
+     "Drop of the main gear: tyre",
      "compression, mm",
      "load, kN",
      false,
@@ -245,8 +245,32 @@ static bool begins_at_zero(const drawing* d) {
     return -least < 0.01 * most;
 }
 
-static bt_status draw_plan(const plan* p, const bt_rig_record* record, const bt_rig_curves* curves,
-                           bool* drawn, const char* folder, bt_diag* diag) {
+/// The paper's number of a figure; 0 for none.
+static int paper_number(const char* name) {
+    static const struct {
+        const char* name;
+        int number;
+    } numbered[] = {{"nose_drop_stroke", 9},
+                    {"nose_drop_tyre", 10},
+                    {"main_drop_stroke", 11},
+                    {"main_drop_tyre", 12}};
+    for (size_t i = 0; i < sizeof numbered / sizeof numbered[0]; ++i)
+        if (strcmp(numbered[i].name, name) == 0)
+            return numbered[i].number;
+    return 0;
+}
+
+/// "Title of the study: what is shown"; of the reference study with the paper's number.
+static void title_of(const bt_study* study, const plan* p, char* title) {
+    const int number = bt_study_is_reference(study) ? paper_number(p->name) : 0;
+    const int used = snprintf(title, TITLE_SIZE, "%s: %s", study->title, p->title);
+    if (number > 0 && used < TITLE_SIZE)
+        snprintf(title + used, (size_t)(TITLE_SIZE - used), " (Fig. %d)", number);
+}
+
+static bt_status draw_plan(const plan* p, const char* title, const bt_rig_record* record,
+                           const bt_rig_curves* curves, bool* drawn, const char* folder,
+                           bt_diag* diag) {
     drawing d = {0};
     const double end = p->impact ? impact_end_s(record) : record->columns[0][record->count - 1];
     const int rows = rows_until(record, end);
@@ -263,7 +287,7 @@ static bt_status draw_plan(const plan* p, const bt_rig_record* record, const bt_
             }
     const bt_figure figure = {
         .name = p->name,
-        .title = p->title,
+        .title = title,
         .x_label = p->over_stroke ? "stroke, mm" : "time from first contact, ms",
         .y_label = p->y_label,
         .y2_label = p->y2_label,
@@ -274,8 +298,8 @@ static bt_status draw_plan(const plan* p, const bt_rig_record* record, const bt_
 }
 
 /// A curve that no planned figure shows: its two columns as they are.
-static bt_status draw_curve(const bt_rig_record* record, const bt_measured* m, const char* folder,
-                            bt_diag* diag) {
+static bt_status draw_curve(const bt_study* study, const bt_rig_record* record,
+                            const bt_measured* m, const char* folder, bt_diag* diag) {
     drawing d = {0};
     char name[192];
     const char *x = record->names[m->x_column], *y = record->names[m->y_column];
@@ -283,20 +307,24 @@ static bt_status draw_curve(const bt_rig_record* record, const bt_measured* m, c
     add(&d, "computed", BT_SERIES_LINE, record->columns[m->x_column], 1,
         record->columns[m->y_column], record->count, 1, false);
     add_measured(&d, m, 1, 1, false);
-    const bt_figure figure = {.name = name, .x_label = x, .y_label = y, .key_below = true};
+    const bt_figure figure = {
+        .name = name, .title = study->title, .x_label = x, .y_label = y, .key_below = true};
     return write(&d, &figure, folder, diag);
 }
 
-bt_status bt_rig_draw(const bt_rig_record* record, const bt_rig_curves* curves, const char* folder,
-                      bt_diag* diag) {
+bt_status bt_rig_draw(const bt_study* study, const bt_rig_record* record,
+                      const bt_rig_curves* curves, const char* folder, bt_diag* diag) {
     bool drawn[BT_CURVES_MAX] = {false};
     if (record->out_of_memory)
         return BT_ERR_MEMORY;
     for (int i = 0; i < PLAN_COUNT; ++i)
-        if (plans[i].kind == record->kind)
-            BT_TRY(draw_plan(&plans[i], record, curves, drawn, folder, diag));
+        if (plans[i].kind == record->kind) {
+            char title[TITLE_SIZE];
+            title_of(study, &plans[i], title);
+            BT_TRY(draw_plan(&plans[i], title, record, curves, drawn, folder, diag));
+        }
     for (int i = 0; i < curves->count; ++i)
         if (!drawn[i])
-            BT_TRY(draw_curve(record, curves->measured[i], folder, diag));
+            BT_TRY(draw_curve(study, record, curves->measured[i], folder, diag));
     return BT_OK;
 }

@@ -42,7 +42,8 @@ double bt_rig_point_tolerance(bt_rig_kind kind, const bt_rigs_params* rigs);
 
 /// The rig's figures (Figs. 9-12: stroke and sinkage, compression and load of the tyre; height and
 /// load of the hook) with the measured curves as points; one more for each curve that fits none.
-BT_CHECKED bt_status bt_rig_draw(const bt_rig_record* record, const bt_rig_curves* curves,
-                                 const char* folder, bt_diag* diag);
+/// They bear the study's title, and the paper's number only in the reference study.
+BT_CHECKED bt_status bt_rig_draw(const bt_study* study, const bt_rig_record* record,
+                                 const bt_rig_curves* curves, const char* folder, bt_diag* diag);
 
 #endif

@@ -123,6 +123,9 @@ BT_CHECKED bt_status bt_study_read(const char* path, const char* const* sets, in
                                    bt_study* study, bt_diag* diag);
 void bt_study_destroy(bt_study* study);
 
+/// Whether it is the reference study (by its title): figures of others bear no number of the paper.
+bool bt_study_is_reference(const bt_study* study);
+
 /// Whether a path is one of the files that the study was read from, or a measured curve that it
 /// names: by device and inode, whatever the path is called. Such a file is never written.
 bool bt_study_reads(const bt_study* study, const char* path);

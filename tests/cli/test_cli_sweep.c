@@ -79,6 +79,70 @@ static void sweep_takes_ranges_and_one_unit_for_a_list(void** state) {
     }
 }
 
+static void sweep_writes_its_table_as_csv(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "sweep " REFERENCE " " COARSE "-o %/t.csv --key landing.pitch "
+                               "--values '0, 8 deg'"),
+                     0);
+    char* text = read_text(f, "t.csv");
+    assert_has(text, "key,value,outcome,mode,height_m,distance_m,impact_force_N,margin_m\n"
+                     "landing.pitch,0,");
+    assert_has(text, "\nlanding.pitch,0.139626340159546");
+    free(text);
+    // a table of the user's stays, Bolter's own is replaced
+    assert_int_equal(bolter(f, "sweep " REFERENCE " " COARSE "-o %/t.csv --key landing.pitch "
+                               "--values '0 deg'"),
+                     0);
+    write_file(f, "t.csv", "time,load\n");
+    assert_int_equal(bolter(f, "sweep " REFERENCE " " COARSE "-o %/t.csv --key landing.pitch "
+                               "--values '0 deg'"),
+                     5);
+    assert_has(f->err, "not written by Bolter");
+}
+
+#define TR1154 "studies/rigs/tr1154.yaml"
+
+static void sweep_of_a_rig_is_a_table_and_a_figure(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "sweep " TR1154 " -o %/study --key rigs.main_drop.sink_speed "
+                               "--values '2, 3 m/s'"),
+                     0);
+    assert_has(f->out, "main_drop: Gear of NACA TR 1154");
+    assert_has(f->out, "strut_force_max_N, N");
+    assert_has(f->out, "\n2 m/s ");
+    assert_has(f->out, "\n3 m/s ");
+    assert_true(exists(f, "study/figures/sweep_rigs_main_drop_sink_speed.gp"));
+    char* script = read_text(f, "study/figures/sweep_rigs_main_drop_sink_speed.gp");
+    assert_has(script, "Gear of NACA TR 1154");
+    free(script);
+    // twice the speed is four times the energy: the strut takes more, in SI in the CSV
+    assert_int_equal(bolter(f, "sweep " TR1154 " -o %/t.csv --key rigs.main_drop.sink_speed "
+                               "--values '1.5..3 m/s in 2'"),
+                     0);
+    char* text = read_text(f, "t.csv");
+    assert_has(text, "value,stroke_max_m,");
+    double slow = 0, fast = 0;
+    assert_int_equal(sscanf(strchr(text, '\n'), "\n1.5 m/s,%lf", &slow), 1);
+    assert_int_equal(sscanf(strstr(text, "\n3 m/s"), "\n3 m/s,%lf", &fast), 1);
+    assert_true(fast > 1.2 * slow);
+    free(text);
+    assert_int_equal(bolter(f, "sweep " TR1154 " --key rigs.nose_drop.sink_speed --values 1"), 2);
+    assert_has(f->err, "does not describe rigs.nose_drop");
+}
+
+static void figures_bear_the_papers_numbers_in_the_reference_study_only(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "rig main-drop " TR1154 " -o %/own"), 0);
+    char* script = read_text(f, "own/figures/main_drop_tyre.gp");
+    assert_has(script, "Gear of NACA TR 1154");
+    assert_null(strstr(script, "Fig."));
+    free(script);
+    assert_int_equal(bolter(f, "rig main-drop " REFERENCE " -o %/ref"), 0);
+    script = read_text(f, "ref/figures/main_drop_tyre.gp");
+    assert_has(script, "Hook and cable, four random inputs: Drop of the main gear: tyre (Fig. 12)");
+    free(script);
+}
+
 static void sweep_refuses_what_it_cannot_vary(void** state) {
     fixture* f = *state;
     assert_int_equal(bolter(f, "sweep " REFERENCE " --key landing.pitch"), 2);
@@ -150,6 +214,9 @@ int main(void) {
         WITH_DIRECTORY(sweep_prints_one_json_object),
         WITH_DIRECTORY(sweep_without_gnuplot_leaves_data_and_script),
         WITH_DIRECTORY(sweep_takes_ranges_and_one_unit_for_a_list),
+        WITH_DIRECTORY(sweep_writes_its_table_as_csv),
+        WITH_DIRECTORY(sweep_of_a_rig_is_a_table_and_a_figure),
+        WITH_DIRECTORY(figures_bear_the_papers_numbers_in_the_reference_study_only),
         WITH_DIRECTORY(sweep_refuses_what_it_cannot_vary),
         WITH_DIRECTORY(calibrate_writes_an_overlay_that_set_reads),
         WITH_DIRECTORY(calibrate_says_what_is_wrong),
