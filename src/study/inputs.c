@@ -160,6 +160,9 @@ static void read_distribution(bt_reader* reader, const bt_study* study, bt_input
     bt_reader_known_keys(reader, node, path, kind_key, names);
     for (; *names; ++names)
         read_parameter(reader, input, node, *names, path, d);
+    const bt_node* sd = bt_node_child(node, "sd");
+    if (sd && sd->kind == BT_NODE_SCALAR && !*input->typed)
+        snprintf(input->typed, sizeof input->typed, "%s", sd->text);
     const char* fault = reader->errors == before ? bt_distribution_check(d) : NULL;
     if (fault)
         bt_reader_error(reader, node->key->where, "%s: %s", path, fault);
@@ -206,6 +209,7 @@ static void read_range(bt_reader* reader, bt_input* input, const bt_node* node, 
                         node->last->text);
         return;
     }
+    snprintf(input->typed, sizeof input->typed, "%s", node->first->text);
     input->bounded = true;
     input->lower = lower;
     input->upper = upper;

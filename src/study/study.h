@@ -63,6 +63,7 @@ typedef struct bt_input {
     bt_distribution distribution;
     bool bounded;        ///< is an axis of the design (campaign.bounds)
     double lower, upper; ///< SI; the box of the design
+    char typed[32];      ///< one of its values as it was typed: the unit for people; "" for none
     int levels;          ///< full_factorial: points along this axis (0: left to the design)
     bt_where where;
 } bt_input;

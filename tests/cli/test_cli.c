@@ -353,7 +353,18 @@ static void the_whole_chain_at_small_size(void** state) {
     assert_true(json_number(f->out, "holdout_n") > 10);
     assert_int_equal(bolter(f, "replay " REFERENCE " 5 " SMALL "-o %/small"), 0);
     assert_has(f->out, "the same to the bit");
+    assert_has(f->out, "landing.pitch = ");
+    assert_has(f->out, " deg\n"); // the unit of the study
     assert_int_equal(bolter(f, "replay " REFERENCE " 500 " SMALL "-o %/small"), 2);
+    assert_int_equal(bolter(f, "replay " REFERENCE " --missed " SMALL "-o %/small --json"), 0);
+    assert_has(f->out, "\"outcome\": \"missed\"");
+    assert_int_equal(
+        bolter(f, "replay " REFERENCE " --nearest 'landing.pitch=8 deg' " SMALL "-o %/small"), 0);
+    assert_has(f->out, "landing.pitch = 7."); // the highest of the net
+    assert_int_equal(bolter(f, "replay " REFERENCE " " SMALL "-o %/small"), 2);
+    assert_int_equal(
+        bolter(f, "replay " REFERENCE " --nearest 'landing.roll=1 deg' " SMALL "-o %/small"), 2);
+    assert_has(f->err, "is no axis of the campaign");
 
     assert_int_equal(bolter(f, "reliability " REFERENCE " " SMALL "-o %/small --json"), 0);
     int conditions = 0;
