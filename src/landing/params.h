@@ -98,7 +98,9 @@ BT_DECLARE_GROUP(hook, BT_HOOK_FIELDS)
     F(REAL, inertia_zz, kgm2, REQUIRED, 4.44e5, 10, 1e9, "Eq. 1", "yaw inertia, as above")         \
     F(REAL, inertia_xz, kgm2, OPTIONAL, 0, -1e8, 1e8, "Eq. 1",                                     \
       "tensor entry -integral x z dm, as above")                                                   \
-    F(PLAIN, lift_ratio, _, OPTIONAL, 1, 0, 2, "", "lift over weight from the start on, constant") \
+    F(PLAIN, lift_ratio, _, OPTIONAL, 1, 0, 2, "",                                                 \
+      "lift over weight from the first touch of the deck on, constant; until then the glide is "   \
+      "steady")                                                                                    \
     F(GROUP, nose_gear, gear, REQUIRED, 0, 0, 0, "", "nose leg")                                   \
     F(GROUP, main_gear, gear, REQUIRED, 0, 0, 0, "", "main legs, left and right alike")            \
     F(GROUP, hook, hook, REQUIRED, 0, 0, 0, "", "arresting hook")

@@ -24,7 +24,7 @@ struct bt_landing_model {
 };
 
 typedef enum bt_landing_phase {
-    BT_PHASE_GLIDE, ///< before the first contact with the deck: lift carries the weight
+    BT_PHASE_GLIDE, ///< before the first contact with the deck, where lift is not the weight
     BT_PHASE_ROLL,  ///< after it
     BT_PHASE_CAUGHT,
     BT_PHASE_PASSED,

@@ -53,8 +53,10 @@ static double begins_s(const bt_landing_model* m, bt_glide* glide, const double 
 
 /// The wire rests at x = 0, the named part of the gliding aircraft is `distance` before it when the
 /// first part touches the deck at time 0. Going back along the glide is exact, since nothing
-/// touches anything there and lift carries the weight (bt_landing_frame).
+/// touches anything there and gravity is what lift carries
+/// (bt_landing_step), so that distance and sinking speed are those asked for at that touch.
 bool bt_landing_start(const bt_landing_model* m, bt_landing_state* s) {
+    static const double time_allowed = 4; // of what the way past the wire takes at full speed
     const bt_landing_params* p = &m->params.landing;
     bt_glide glide;
     double shift[3];
@@ -78,6 +80,11 @@ bool bt_landing_start(const bt_landing_model* m, bt_landing_state* s) {
     s->result = (bt_landing_result){.margin_m = NAN, .time_of_contact_s = NAN};
     s->result.shank_bends = m->airframe.shank.bends;
     s->phase = BT_PHASE_ROLL;
+    if (m->params.aircraft.lift_ratio != 1) { // until the first touch nothing but the glide
+        s->phase = BT_PHASE_GLIDE;
+        s->airframe.frame.gravity_mps2[2] *= m->params.aircraft.lift_ratio;
+    }
+    s->end_by_s = time_allowed * (fabs(p->distance_m) + 10) / p->horizontal_speed_mps;
     bt_failure failure = {0};
     if (bt_system_project(m->airframe.system, &s->airframe, &failure) != BT_OK ||
         bt_system_evaluate(m->airframe.system, &s->airframe, &failure) != BT_OK)

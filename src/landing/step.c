@@ -78,8 +78,20 @@ static double wanted_step(const bt_landing_model* m, const bt_landing_state* s) 
     return at_deck ? 0.5 * solver->airframe_step_s : solver->airframe_step_s;
 }
 
+/// The glide ends with a step, at time 0.
 static double choose_step(const bt_landing_model* m, const bt_landing_state* s) {
-    return fmin(wanted_step(m, s), damped_step(m, s));
+    const double step_s = fmin(wanted_step(m, s), damped_step(m, s));
+    const double left_s = -s->airframe.time_s;
+    return s->phase == BT_PHASE_GLIDE ? left_s / ceil(left_s / step_s) : step_s;
+}
+
+/// From the first touch on all of the weight acts.
+static bool end_glide(const bt_landing_model* m, bt_landing_state* s, bt_failure* failure) {
+    if (s->phase != BT_PHASE_GLIDE || s->airframe.time_s < 0)
+        return true;
+    s->phase = BT_PHASE_ROLL;
+    s->airframe.frame = m->hanging.frame;
+    return bt_system_evaluate(m->airframe.system, &s->airframe, failure) == BT_OK;
 }
 
 /* ---- the wires ---- */
@@ -141,8 +153,33 @@ static void record(const bt_landing_model* m, bt_landing_state* s) {
         bt_wire_record(&m->wire[k], &s->wire[k], s->airframe.time_s, s->hops.touched);
 }
 
-/// Caught and held a little, or past the last wire, or out of its reach.
+/// Whether the laws of the airframe's elements hold: at their limit a remark, beyond it a failure.
+static bool laws_hold(const bt_landing_model* m, bt_landing_state* s) {
+    const bt_airframe* f = &m->airframe;
+    const struct {
+        int element, remark;
+    } parts[] = {
+        {f->strut[0], BT_REMARK_STRUT_BOTTOMED_NOSE},  {f->strut[1], BT_REMARK_STRUT_BOTTOMED_LEFT},
+        {f->strut[2], BT_REMARK_STRUT_BOTTOMED_RIGHT}, {f->wheel[0], BT_REMARK_TYRE_ON_RIM_NOSE},
+        {f->wheel[1], BT_REMARK_TYRE_ON_RIM_LEFT},     {f->wheel[2], BT_REMARK_TYRE_ON_RIM_RIGHT},
+        {f->damper, BT_REMARK_HOOK_STOP_HIT},          {f->shoe, BT_REMARK_COUNT}};
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
+        const char* what = "";
+        const bt_law law = bt_system_element_law(f->system, &s->airframe, parts[k].element, &what);
+        if (law == BT_LAW_LEFT) {
+            bt_landing_fail(s, bt_system_element_name(f->system, parts[k].element), what,
+                            s->airframe.time_s);
+            return false;
+        }
+        if (law == BT_LAW_AT_LIMIT && parts[k].remark < BT_REMARK_COUNT)
+            bt_remarks_note(&s->result.remarks, (bt_remark)parts[k].remark, s->airframe.time_s);
+    }
+    return true;
+}
+
+/// Caught and held a little, past the last wire, out of its reach, or at rest before it.
 static bt_landing_phase phase_of(const bt_landing_model* m, const bt_landing_state* s) {
+    static const double stopped_share = 0.02; // of the landing's speed
     const bt_solver_params* solver = &m->params.landing.solver;
     bool past_all = true;
     for (int k = 0; k < m->wire_count; ++k) {
@@ -154,7 +191,11 @@ static bt_landing_phase phase_of(const bt_landing_model* m, const bt_landing_sta
         past_all &= bt_wire_passed_m(wire) >= solver->past_cable_m ||
                     wire->hook.lip_m[0] >= BT_PAST_CABLE_MOST_M; // riding on the arm
     }
-    return past_all ? BT_PHASE_PASSED : s->phase;
+    if (past_all)
+        return BT_PHASE_PASSED;
+    const double speed_mps = s->airframe.v[6 * BT_BODY_FUSELAGE];
+    const bool stopped = speed_mps < stopped_share * m->params.landing.horizontal_speed_mps;
+    return stopped || s->airframe.time_s > s->end_by_s ? BT_PHASE_STOPPED : s->phase;
 }
 
 static bool cables_are_finite(const bt_landing_model* m, const bt_landing_state* s) {
@@ -168,6 +209,10 @@ bool bt_landing_step(const bt_landing_model* m, bt_landing_state* s) {
     bt_failure failure = {0};
     if (bt_phase_is_over(s->phase))
         return false;
+    if (!end_glide(m, s, &failure)) {
+        bt_landing_fail(s, failure.where, failure.quantity, failure.time_s);
+        return false;
+    }
     // 1. where wheels and hook are, how far from the wires, and the step that all parts bear
     follow_parts(m, s);
     const double step_s = choose_step(m, s);
@@ -182,7 +227,7 @@ bool bt_landing_step(const bt_landing_model* m, bt_landing_state* s) {
         bt_landing_fail(s, failure.where, failure.quantity, failure.time_s);
     else if (!cables_are_finite(m, s))
         bt_landing_fail(s, "cable", "position or velocity", s->airframe.time_s);
-    else {
+    else if (laws_hold(m, s)) {
         // 4. bounces, loads, and the limit state of every wire [Peng2023 Eq. 18]
         record(m, s);
         s->phase = phase_of(m, s);

@@ -103,10 +103,62 @@ static void preparing_again_keeps_what_has_not_changed(void** state) {
     end(&f);
 }
 
+/// Distance and sinking speed at the first touch are those asked for, whatever the lift.
+static void the_glide_is_held_until_the_first_touch(void** state) {
+    (void)state;
+    const bt_model_params params = REFERENCE("aircraft.lift_ratio=0", "landing.sink_speed=0.9 m/s",
+                                             "landing.pitch=0 deg", "landing.distance=2 m");
+    flight f = begin(&params);
+    bt_landing_view view;
+    bool touched = false;
+    do {
+        bt_landing_observe(f.model, f.state, false, &view);
+        if (view.time_s > -1e-12 && !touched) {
+            touched = true;
+            BT_ASSERT_NEAR(view.time_s, 0, 0, 1e-15);
+            BT_ASSERT_NEAR(view.v[2], -0.9, 0, 1e-9);
+            BT_ASSERT_NEAR(view.hook_shoe_m[0], -2, 0, 1e-9);
+        }
+    } while (bt_landing_step(f.model, f.state));
+    assert_true(touched);
+    end(&f);
+}
+
+static void an_aircraft_that_comes_to_rest_has_stopped(void** state) {
+    (void)state;
+    const bt_model_params params =
+        REFERENCE("aircraft.lift_ratio=0", "landing.horizontal_speed=5 m/s",
+                  "landing.distance=60 m", "aircraft.hook.deck_contact.friction=3");
+    flight f = begin(&params);
+    const bt_landing_result r = fly_on(&f, f.state);
+    assert_int_equal(r.outcome, BT_MISSED);
+    assert_string_equal(bt_mode_name(r.mode), "stopped");
+    assert_true(isnan(r.margin_m));
+    end(&f);
+}
+
+static void states_beyond_the_model_are_said_and_beyond_a_law_fail(void** state) {
+    (void)state;
+    bt_model_params params = REFERENCE("landing.sink_speed=12 m/s", "landing.distance=14 m");
+    flight f = begin(&params);
+    const bt_landing_result r = fly_on(&f, f.state);
+    assert_true(bt_remarks_has(&r.remarks, BT_REMARK_STRUT_BOTTOMED_LEFT) ||
+                r.outcome == BT_FAILED);
+    assert_true(r.remarks.seen != 0);
+    end(&f);
+    params = REFERENCE("landing.distance=5 m");
+    f = begin(&params);
+    assert_int_equal(fly_on(&f, f.state).remarks.seen, 0);
+    end(&f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stepping_from_outside_is_the_lander_s_run),
         cmocka_unit_test(a_copy_goes_on_as_the_original),
+        cmocka_unit_test(the_glide_is_held_until_the_first_touch),
+        cmocka_unit_test(an_aircraft_that_comes_to_rest_has_stopped),
+        cmocka_unit_test(states_beyond_the_model_are_said_and_beyond_a_law_fail),
         cmocka_unit_test(preparing_again_keeps_what_has_not_changed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
