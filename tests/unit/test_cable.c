@@ -328,7 +328,7 @@ static void supports_below_the_sheaves_still_carry_the_cable(void** state) {
             const double force = r.state.scalars->support_force_N[k];
             assert_true(force > 0);
             if (fabs(fabs(r.model.def.support_y_m.value[k]) - p.supports.first_m) < 1e-9)
-                BT_ASSERT_NEAR(force, 9 * p.mass_kgpm * G, 0.2, 0);
+                BT_ASSERT_NEAR(force, 9 * p.mass_kgpm * G, 0.04, 0); // higher sheaves take 1-3.5 %
         }
         bt_arena_destroy(&r.arena);
     }

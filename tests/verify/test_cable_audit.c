@@ -414,7 +414,9 @@ static void stable_step_holds_on_uneven_meshes(void** state) {
         rope_run(&r, 20000, 0.999 * r.model.stable_step_s);
         bt_cable_audit(&r.model, &r.state, &e);
         assert_true(bt_cable_is_finite(&r.model, &r.state));
-        BT_ASSERT_NEAR(total(&e), start, 0.05, 0);
+        // the leapfrog keeps an energy that differs from this one by the fastest modes' share,
+        // which is largest where half of the rope is all of the shortest segments
+        BT_ASSERT_NEAR(total(&e), start, kind == 2 ? 0.01 : 1e-4, 0);
         rope_close(&r);
     }
 }
