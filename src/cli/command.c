@@ -14,7 +14,8 @@ static const struct argp_option common_options[] = {
      "PATH: VALUE; may be repeated",
      10},
     {"output", 'o', "PATH", 0,
-     "where results go, by suffix: FILE.h5 time histories, FILE.csv the table, else a directory "
+     "where results go, by suffix: FILE.h5 time histories, FILE.csv the table, FILE.html a page, "
+     "else a directory "
      "(default: one named after the study)",
      10},
     {"json", 'j', 0, 0, "print one JSON object on standard output and nothing else", 10},

@@ -1,31 +1,61 @@
 #include "base/directory.h"
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cli/version.h"
 #include "report/history.h"
 #include "report/landing_report.h"
+#include "report/page.h"
 
 #include <stdio.h>
 
-/// Into the file of -o, or as landing.h5 into its directory.
-static bt_status write_history(const bt_command* command, const bt_study* study,
-                               const bt_history* history, const bt_landing_result* result,
-                               bt_diag* diag) {
-    char path[BT_FILE_PATH_MAX];
-    BT_TRY(bt_output_path(command, "landing.h5", path, diag));
-    return bt_history_write(history, path, study, result, diag);
+/// What is kept of the landing for -o; both NULL: nothing.
+typedef struct recorder {
+    bt_history* history;
+    bt_playback* playback;
+} recorder;
+
+static bt_status start(const bt_command* command, recorder* r, bt_diag* diag) {
+    if (!command->output)
+        return BT_OK;
+    if (bt_output_kind(command->output) != BT_OUTPUT_PAGE)
+        return bt_history_create(&r->history);
+    return bt_page_available(diag) ? bt_playback_create(BT_PLAYBACK_ROWS_ALONE, &r->playback)
+                                   : BT_ERR_INPUT;
 }
 
-static bt_status land(const bt_command* command, const bt_study* study, bt_history* history) {
+static void observe(void* user, const bt_landing_view* view) {
+    const recorder* r = user;
+    if (r->history)
+        bt_history_observe(r->history, view);
+    if (r->playback)
+        bt_playback_observe(r->playback, view);
+}
+
+/// Into the file of -o, or as landing.h5 into its directory.
+static bt_status write(const bt_command* command, const bt_study* study, const recorder* r,
+                       const bt_landing_result* result, bt_diag* diag) {
+    char path[BT_FILE_PATH_MAX];
+    if (!command->output)
+        return BT_OK;
+    BT_TRY(bt_output_path(command, "landing.h5", path, diag));
+    if (r->history)
+        return bt_history_write(r->history, path, study, result, diag);
+    const bt_page_subject subject = {study, command->words[0], bt_version_build(), NULL};
+    return bt_page_landing(&subject, path, r->playback, result, diag);
+}
+
+static bt_status land(const bt_command* command, const bt_study* study, recorder* r) {
     bt_diag diag = bt_stderr_diag();
     bt_lander* lander = NULL;
     bt_landing_result result;
+    BT_TRY(start(command, r, &diag));
     BT_TRY(bt_lander_create(&lander));
     bt_lander_obey(lander, &bt_interrupted);
-    bt_status status = bt_lander_run(lander, &study->model, &result,
-                                     history ? bt_history_observe : NULL, history, &diag);
+    bt_status status =
+        bt_lander_run(lander, &study->model, &result, command->output ? observe : NULL, r, &diag);
     bt_lander_destroy(lander);
-    if (status == BT_OK && history)
-        status = write_history(command, study, history, &result, &diag);
+    if (status == BT_OK)
+        status = write(command, study, r, &result, &diag);
     if (status != BT_OK)
         return status;
     if (command->json) {
@@ -42,12 +72,11 @@ static bt_status land(const bt_command* command, const bt_study* study, bt_histo
 
 static bt_status run(const bt_command* command) {
     bt_study study;
-    bt_history* history = NULL;
+    recorder r = {0};
     BT_TRY(bt_command_study(command, &study));
-    bt_status status = command->output ? bt_history_create(&history) : BT_OK;
-    if (status == BT_OK)
-        status = land(command, &study, history);
-    bt_history_destroy(history);
+    const bt_status status = land(command, &study, &r);
+    bt_history_destroy(r.history);
+    bt_playback_destroy(r.playback);
     bt_study_destroy(&study);
     return status;
 }
@@ -56,15 +85,17 @@ const bt_verb bt_verb_land = {
     .name = "land",
     .summary = "simulate one landing: outcome, bounces, peak loads",
     .arguments = "STUDY.yaml",
-    .text = "Simulates the landing of the study's `landing:' and says whether the hook caught the "
-            "wire, how, by which margin, how the hook bounced, and the peak loads. Loads of the "
-            "hook on the deck are not calibrated; loads after a catch hold for 50 ms.\n\n"
-            "  bolter land study.yaml --set landing.distance='7 m'\n"
-            "  bolter land study.yaml -o landing.h5     time histories (HDF5, with units; .csv: "
-            "CSV)\n\n"
-            "The exit code is 4 when the computation diverged.",
+    .text =
+        "Simulates the landing of the study's `landing:' and says whether the hook caught the "
+        "wire, how, by which margin, how the hook bounced, and the peak loads. Loads of the "
+        "hook on the deck are not calibrated; loads after a catch hold for 50 ms.\n\n"
+        "  bolter land study.yaml --set landing.distance='7 m'\n"
+        "  bolter land study.yaml -o landing.h5     time histories (HDF5, with units; .csv: "
+        "CSV)\n"
+        "  bolter land study.yaml -o landing.html   a page that plays it in three dimensions\n\n"
+        "The exit code is 4 when the computation diverged.",
     .least_words = 1,
     .most_words = 1,
-    .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_TABLE | BT_OUTPUT_DIRECTORY,
+    .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_TABLE | BT_OUTPUT_PAGE | BT_OUTPUT_DIRECTORY,
     .run = run,
 };

@@ -14,6 +14,7 @@ static const struct {
     {".h5", "FILE.h5 (time histories)", BT_OUTPUT_HISTORIES},
     {".csv", "FILE.csv (table or histories)", BT_OUTPUT_TABLE},
     {".yaml", "FILE.yaml (the values found)", BT_OUTPUT_VALUES},
+    {".html", "FILE.html (page for a browser)", BT_OUTPUT_PAGE},
     {NULL, "a directory", BT_OUTPUT_DIRECTORY},
 };
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };

@@ -1,5 +1,6 @@
 #include "cli/chain.h"
 #include "cli/output.h"
+#include "report/page.h"
 
 #include <stdio.h>
 
@@ -10,6 +11,18 @@ static void print_more(const bt_surrogate* surrogate, const bt_campaign_progress
         printf(
             "ledger        %d landings of this and earlier runs; the surrogate is trained on all\n",
             trained);
+}
+
+/// report.html, where this build has the page.
+static bt_status write_page(bt_chain* chain, bool talk) {
+    char path[BT_FILE_PATH_MAX];
+    if (!bt_page_available(NULL))
+        return BT_OK;
+    BT_TRY(bt_study_directory_file(&chain->directory, "report.html", path));
+    BT_TRY(bt_command_report(chain->command, &chain->study, path));
+    if (talk)
+        printf("to look at    %s\n", path);
+    return BT_OK;
 }
 
 static bt_status run_chain(bt_chain* chain) {
@@ -30,9 +43,12 @@ static bt_status run_chain(bt_chain* chain) {
     }
     const bt_status status = bt_chain_reliability(chain, false, &surrogate);
     bt_surrogate_destroy(&surrogate);
-    if (status == BT_OK && talk && !chain->command->quiet)
+    if (status != BT_OK)
+        return status;
+    const bool hint = talk && !chain->command->quiet;
+    if (hint)
         printf("\nresults in %s\n", chain->study.directory);
-    return status;
+    return write_page(chain, hint);
 }
 
 static bt_status run(const bt_command* command) {
@@ -52,7 +68,7 @@ const bt_verb bt_verb_study = {
             "reliability of every condition with its interval. What is up to date is not done "
             "again, so a study that was interrupted goes on where it stopped. Everything is kept "
             "in the study directory: study.yaml, campaign.sqlite, surrogate.model, "
-            "reliability.json.",
+            "reliability.json, report.html.",
     .least_words = 1,
     .most_words = 1,
     .outputs = BT_OUTPUT_DIRECTORY,

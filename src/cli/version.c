@@ -25,3 +25,7 @@ void bt_version_print(FILE* out, bool verbose) {
     fprintf(out,
             "Licence GPL-3.0-or-later. There is no warranty, to the extent permitted by law.\n");
 }
+
+const char* bt_version_build(void) {
+    return "gcc " __VERSION__ ", " BT_FLAGS;
+}

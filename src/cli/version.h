@@ -8,4 +8,7 @@
 /// "bolter 0.1.0"; verbose: compiler, flags, libraries and the kernel level in use.
 void bt_version_print(FILE* out, bool verbose);
 
+/// Compiler and flags of the program.
+const char* bt_version_build(void);
+
 #endif

@@ -4,7 +4,16 @@
 
 #include <math.h>
 
-static void write_string(FILE* out, const char* text) {
+/// "<" could end the script element that holds the data of a page.
+static void write_char(const bt_json* json, char c) {
+    if (c == '<' && json->in_page)
+        fputs("\\u003c", json->out);
+    else
+        fputc(c, json->out);
+}
+
+static void write_string(const bt_json* json, const char* text) {
+    FILE* out = json->out;
     fputc('"', out);
     for (; *text; ++text) {
         const unsigned char c = (unsigned char)*text;
@@ -15,12 +24,14 @@ static void write_string(FILE* out, const char* text) {
         else if (c < 0x20)
             fprintf(out, "\\u%04x", c);
         else
-            fputc(c, out);
+            write_char(json, *text);
     }
     fputc('"', out);
 }
 
 static void indent(const bt_json* json) {
+    if (json->in_page)
+        return;
     fputc('\n', json->out);
     for (int i = 0; i < json->depth; ++i)
         fputs("  ", json->out);
@@ -36,7 +47,7 @@ static void lead_in(bt_json* json, const char* key) {
         indent(json);
     }
     if (key) {
-        write_string(json->out, key);
+        write_string(json, key);
         fputs(": ", json->out);
     }
 }
@@ -94,7 +105,21 @@ void bt_json_bool(bt_json* json, const char* key, bool value) {
 void bt_json_string(bt_json* json, const char* key, const char* value) {
     lead_in(json, key);
     if (value)
-        write_string(json->out, value);
+        write_string(json, value);
     else
         fputs("null", json->out);
+}
+
+void bt_json_rounded(bt_json* json, const char* key, double value, int digits) {
+    char text[40] = "null";
+    lead_in(json, key);
+    if (isfinite(value))
+        bt_text_print_rounded(value, digits, text, sizeof text);
+    fputs(text, json->out);
+}
+
+void bt_json_text(bt_json* json, const char* key, const char* text) {
+    lead_in(json, key);
+    for (; *text; ++text)
+        write_char(json, *text);
 }

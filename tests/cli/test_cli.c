@@ -136,7 +136,8 @@ static void no_file_of_the_users_is_replaced(void** state) {
 static void output_is_by_suffix_in_every_verb(void** state) {
     fixture* f = *state;
     assert_int_equal(bolter(f, "land " REFERENCE " -o %/l.vtp"), 2);
-    assert_has(f->err, "FILE.h5 (time histories), FILE.csv (table or histories), a directory");
+    assert_has(f->err, "FILE.h5 (time histories), FILE.csv (table or histories), FILE.html "
+                       "(page for a browser), a directory");
     assert_false(exists(f, "l.vtp"));
     assert_int_equal(bolter(f, "rig nose-drop " REFERENCE " -o %/out.pvd"), 2);
     assert_false(exists(f, "out.pvd"));

@@ -1,3 +1,4 @@
+import * as Plot from "@observablehq/plot";
 import { csv } from "./data.js";
 import { element, save } from "./dom.js";
 
@@ -32,8 +33,9 @@ function standalone(svg) {
  * @param {(width: number) => SVGElement} of.draw
  * @param {string[]} of.columns
  * @param {any[][]} of.rows
+ * @param {[string, string][]} [of.legend]  what the colours mean
  */
-export function figure({ name, caption, draw, columns, rows, max = 760 }) {
+export function figure({ name, caption, draw, columns, rows, legend = [], max = 760 }) {
   const holder = element("div", { class: "drawing" });
   const link = (text, act) => element("button", { type: "button", class: "link", onclick: act }, text);
   let width = 0;
@@ -48,6 +50,7 @@ export function figure({ name, caption, draw, columns, rows, max = 760 }) {
   };
   const made = element("figure", { id: `figure-${name}` }, holder,
     element("figcaption", {}, caption, " ",
+      ...legend.map(([what, colour]) => element("span", { class: "legend" }, element("span", {}, element("i", { style: `background:${colour}` }), what))), " ",
       element("span", { class: "links" },
         link("CSV", () => save(`${name}.csv`, csv(columns, rows), "text/csv")), " ",
         link("SVG", () => save(`${name}.svg`, standalone(holder.querySelector("svg")), "image/svg+xml")))));
@@ -58,3 +61,15 @@ export function figure({ name, caption, draw, columns, rows, max = 760 }) {
 }
 
 export const plotStyle = style;
+
+/** Room for the label of the x axis below its numbers. */
+export const below = { marginBottom: 44 };
+export const acrossAxis = (label) => ({ label, grid: true, labelOffset: 40 });
+
+/** What the colours mean, in the picture itself: one line of text for each, at a corner. */
+export function key(labels, colour, { anchor = "top-right", dx = -4, dy = 4 } = {}) {
+  return labels.map((label, i) => Plot.text([label], {
+    frameAnchor: anchor, text: (d) => d, fill: colour(label, i), dx, dy: dy + 16 * i, fontWeight: 600,
+    stroke: "var(--plot-background, white)", strokeWidth: 4, paintOrder: "stroke",
+  }));
+}

@@ -34,10 +34,16 @@ document.getElementById("page").append(
   ...sections);
 if (player) {
   globalThis.bolterPlayer = player;
-  try {
-    player.start();
-  } catch (error) {
-    player.node.replaceChildren(element("p", { class: "warning" }, "This browser has no WebGL: the three-dimensional picture cannot be drawn."));
-  }
+  // The pictures in three dimensions are made when they are first looked at.
+  const start = () => {
+    try {
+      player.start();
+    } catch (error) {
+      player.node.replaceChildren(element("p", { class: "warning" }, `The three-dimensional picture cannot be drawn here (${error.message}).`));
+    }
+  };
+  const sight = new IntersectionObserver((entries) => { if (entries.some((e) => e.isIntersecting)) start(); }, { rootMargin: "200px" });
+  sight.observe(player.node);
+  addEventListener("beforeprint", start);
   new ResizeObserver(() => player.resize()).observe(player.node);
 }

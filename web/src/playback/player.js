@@ -1,12 +1,12 @@
 import * as Plot from "@observablehq/plot";
 import { element } from "../dom.js";
-import { figure, plotStyle, series } from "../figure.js";
+import { below, figure, plotStyle, series } from "../figure.js";
 import { Motion } from "./motion.js";
 import { Stage } from "./scene.js";
 
 const SPEEDS = [1, 0.5, 0.1, 0.05, 0.02, 0.01, 0.005, 0.001];
 const PANELS = [
-  { label: "height, mm", scale: 1000, curves: { hook_height_m: "hook", cable_height_m: "cable at the hook" } },
+  { label: "height, mm", scale: 1000, curves: { hook_height_m: "lowest point of the hook", lip_z_m: "its lip", cable_height_m: "cable at the hook" } },
   { label: "cable tension, kN", scale: 1e-3, curves: { cable_tension_N: "largest tension" } },
   { label: "tyres, kN", scale: 1e-3, curves: { tyre_nose_N: "nose", tyre_left_N: "left", tyre_right_N: "right" } },
   { label: "struts, kN", scale: 1e-3, curves: { strut_nose_N: "nose", strut_left_N: "left", strut_right_N: "right" } },
@@ -17,28 +17,33 @@ const say = (record) => `${record.name}: ${record.outcome}, ${record.mode.replac
 
 /** Curves under the picture, with a cursor that moves with the time. */
 function panel(motion, { label, scale, curves }, cursors) {
-  const present = Object.entries(curves).filter(([name]) => motion.curves[name]);
+  const present = Object.entries(curves).filter(([name]) => motion.curves[name]?.values.some((value) => value !== 0));
   if (!present.length) return null;
   const points = present.flatMap(([name, what]) => Array.from(motion.time, (t, i) => ({ t, y: scale * motion.curves[name].values[i], what })));
   return figure({
-    name: `landing-${label.split(",")[0].replaceAll(" ", "-")}`, caption: label,
+    name: `landing-${label.split(",")[0].replaceAll(" ", "-")}`, caption: label, legend: present.map(([, what], i) => [what, series[i]]),
     columns: ["time [s]", ...present.map(([name]) => name)],
     rows: Array.from(motion.time, (t, i) => [t, ...present.map(([name]) => motion.curves[name].values[i])]),
     draw: (width) => {
       const svg = Plot.plot({
-        width, height: 120, style: plotStyle, marginLeft: 55, x: { label: "s", grid: true }, y: { label: null, grid: true, ticks: 4 },
+        width, height: 140, style: plotStyle, marginLeft: 55, ...below, x: { label: "time, s", grid: true, labelOffset: 36 }, y: { label: null, grid: true, ticks: 4 },
         color: { domain: present.map(([, what]) => what), range: series },
-        marks: [Plot.line(points, { x: "t", y: "y", stroke: "what", z: "what" }),
-          Plot.text(present.map(([, what]) => points.filter((p) => p.what === what).reduce((a, b) => (b.y > a.y ? b : a))), { x: "t", y: "y", text: "what", fill: "what", dy: -6 })],
+        marks: [Plot.line(points, { x: "t", y: "y", stroke: "what", z: "what" })],
       });
       const x = svg.scale("x");
       const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
-      for (const [key, value] of Object.entries({ y1: 10, y2: 95, stroke: "currentColor", "stroke-width": 1.5, class: "cursor" })) line.setAttribute(key, value);
+      for (const [key, value] of Object.entries({ y1: 18, y2: 96, stroke: "currentColor", "stroke-width": 1.5, class: "cursor" })) line.setAttribute(key, value);
       svg.append(line);
       cursors.set(label, (time) => { const at = x.apply(time); line.setAttribute("x1", at); line.setAttribute("x2", at); });
       return svg;
     },
   });
+}
+
+/** Where an event's mark stands: three rows take turns, and what is near the end is read to the left. */
+function place(motion, event, i) {
+  const share = (100 * (event.time_s - motion.begin)) / (motion.end - motion.begin);
+  return `top:${1.35 * (i % 4)}rem;` + (share > 60 ? `right:${100 - share}%;border-right:2px solid var(--mark)` : `left:${share}%;border-left:2px solid var(--mark)`);
 }
 
 /** The recorded landings with their controls: one, or two side by side, driven by one clock. */
@@ -81,11 +86,13 @@ export class Player {
           ...SPEEDS.map((s) => option(s, s === 1 ? "real time" : `1/${Math.round(1 / s)}`, s === 0.1)))), " ",
         ...Object.entries(views).map(([view, text]) => element("button", { type: "button", "data-view": view, onclick: () => this.look(view) }, text)), " ", this.status),
       this.slider, this.marks, this.curveBox,
-      element("p", { class: "note" }, "Space plays and stops; arrow keys step; 1 to 4 choose the camera; drag to turn, wheel to come closer."));
+      element("p", { class: "note" }, "Space plays and stops; arrow keys step; 1 to 4 choose the camera; drag to turn, wheel to come closer. " +
+        "Cable: blue where slack to red at its largest tension. Arrows: forces, each kind as long as its largest in this landing. " +
+        "Legs, wheels, hook, cable and deck have the model's dimensions; the fuselage is a sketch."));
   }
 
   /** Called once the node is in the page. */
-  start() { this.choose(0, 0); }
+  start() { if (!this.stages.length) this.choose(0, this.chosen[0]); }
 
   choose(side, index) {
     this.chosen[side] = index;
@@ -100,8 +107,8 @@ export class Player {
     this.time = first.begin;
     this.cursors.clear();
     this.curveBox.replaceChildren(...PANELS.map((p) => panel(first, p, this.cursors)).filter(Boolean));
-    this.marks.replaceChildren(...first.record.events.map((event) =>
-      element("button", { type: "button", title: event.what, style: `left:${(100 * (event.time_s - first.begin)) / (first.end - first.begin)}%`,
+    this.marks.replaceChildren(...first.record.events.map((event, i) =>
+      element("button", { type: "button", title: event.what, style: place(first, event, i),
         onclick: () => { this.time = event.time_s; this.draw(); } }, event.what)));
     this.draw();
   }

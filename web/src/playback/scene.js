@@ -1,7 +1,7 @@
 import {
-  ArrowHelper, BoxGeometry, CapsuleGeometry, Color, CylinderGeometry,
-  DirectionalLight, ExtrudeGeometry, GridHelper, Group, HemisphereLight, InstancedMesh, Mesh, MeshStandardMaterial, Object3D,
-  PerspectiveCamera, PlaneGeometry, Scene, Shape, TorusGeometry, Vector3, WebGLRenderer,
+  ArrowHelper, BoxGeometry, BufferGeometry, CapsuleGeometry, Color, CylinderGeometry, DirectionalLight, DoubleSide, ExtrudeGeometry,
+  Float32BufferAttribute, Group, HemisphereLight, InstancedMesh, LineBasicMaterial, LineSegments, Mesh, MeshStandardMaterial, Object3D,
+  PerspectiveCamera, Plane, PlaneGeometry, Scene, Shape, TorusGeometry, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
@@ -44,7 +44,7 @@ function fuselage(g) {
 /** The hook: the outline of its head extruded over its width, and the shank to the pivot. */
 function hook(g) {
   const group = new Group();
-  const steel = metal(0x444b52);
+  const steel = metal(0x7a848e);
   const outline = new Shape();
   g.outline.forEach(([u, w], i) => (i ? outline.lineTo(u, w) : outline.moveTo(u, w)));
   const head = new Mesh(new ExtrudeGeometry(outline, { depth: g.width_m, bevelEnabled: false, steps: 1 }), steel);
@@ -68,11 +68,16 @@ function wheel(g) {
 
 function deck(g) {
   const group = new Group();
-  const plate = new Mesh(new PlaneGeometry(120, 1.4 * g.span_m), new MeshStandardMaterial({ color: 0x5a6066, roughness: 0.95 }));
-  const grid = new GridHelper(120, 120, 0x3c4146, 0x4b5156);
-  grid.rotation.x = Math.PI / 2;
-  grid.position.z = 0.002;
-  group.add(plate, grid);
+  const width = 1.4 * g.span_m;
+  const plate = new Mesh(new PlaneGeometry(120, width), new MeshStandardMaterial({ color: 0x5a6066, roughness: 0.95, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
+  const ends = [];
+  for (let x = -30; x <= 30; ++x) ends.push(x, -0.5 * width, 0.001, x, 0.5 * width, 0.001);
+  for (let i = -20; i <= 20; ++i) { // every 10 cm where hook and cable meet
+    ends.push(0.1 * i, -2, 0.001, 0.1 * i, 2, 0.001);
+    ends.push(-2, 0.1 * i, 0.001, 2, 0.1 * i, 0.001);
+  }
+  const lines = new LineSegments(new BufferGeometry().setAttribute("position", new Float32BufferAttribute(ends, 3)), new LineBasicMaterial({ color: 0x474d53 }));
+  group.add(plate, lines);
   for (const y of g.supports_m) {
     const leaf = new Mesh(new BoxGeometry(0.25, 0.05, g.support_height_m), metal(0xe69f00));
     leaf.position.set(0, y, 0.5 * g.support_height_m);
@@ -101,7 +106,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.scene = new Scene();
     this.scene.background = new Color(0xaec6dc);
-    this.camera = new PerspectiveCamera(40, 1, 0.02, 400);
+    this.camera = new PerspectiveCamera(40, 1, 0.3, 400);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
@@ -123,7 +128,14 @@ export class Stage {
     this.points = new Float32Array(3 * motion.nodes);
     this.tensions = new Float32Array(motion.nodes);
     this.tightest = Math.max(motion.record.cable.tension.greatest, 1);
-    this.rope = new InstancedMesh(new CylinderGeometry(g.deck.rope_radius_m, g.deck.rope_radius_m, 1, 10, 1), metal(0xffffff), motion.nodes - 1);
+    this.rope = new InstancedMesh(new CylinderGeometry(g.deck.rope_radius_m, g.deck.rope_radius_m, 1, 12, 1), metal(0xffffff), motion.nodes - 1);
+    // the close-up leaves out the cable between the eye and the hook
+    this.renderer.localClippingEnabled = true;
+    this.cut = new Plane(new Vector3(0, 1, 0), 1e3);
+    this.halfWidth = 0.5 * g.hook.width_m;
+    this.rope.material.clippingPlanes = [this.cut];
+    this.rope.material.side = DoubleSide;
+    this.rope.frustumCulled = false;
     this.scene.add(this.rope);
     this.arrows = g.forces.map((force) => {
       const arrow = new ArrowHelper(new Vector3(0, 0, 1), new Vector3(), 1, 0x009e73, 0.2, 0.1);
@@ -151,7 +163,9 @@ export class Stage {
   look(view) {
     this.view = view;
     const at = this.target(this.time ?? this.motion.begin);
-    const offset = { side: [0, -20, 3], hook: [0.25, -1.6, 0.25], above: [-4, 0.01, 26], orbit: [-14, -14, 8] }[view];
+    const offset = { side: [0, -20, 3], hook: [0.2, -3.2, 0.5], above: [-4, 0.01, 26], orbit: [-14, -14, 8] }[view];
+    this.camera.fov = view === "hook" ? 13 : 40; // the close-up is a long lens
+    this.camera.updateProjectionMatrix();
     this.controls.target.copy(at);
     this.camera.position.copy(at).add(new Vector3(...offset));
     this.controls.update();
@@ -174,8 +188,20 @@ export class Stage {
       part.quaternion.set(e[1], e[2], e[3], e[0]);
     });
     m.rope(time, this.points, this.tensions);
+    this.cut.constant = this.view === "hook" ? 0.06 + this.halfWidth - m.value("lip_y_m", time) : 1e3;
     this.layRope();
+    const pull = new Vector3();
     for (const { force, arrow } of this.arrows) {
+      if (force.vector) {
+        pull.set(...force.vector.map((name) => m.value(name, time)));
+        const size = pull.length();
+        arrow.visible = size * force.metres_per_newton > 0.01;
+        if (!arrow.visible) continue;
+        arrow.position.set(...force.at.map((name) => m.value(name, time)));
+        arrow.setDirection(pull.divideScalar(size));
+        arrow.setLength(size * force.metres_per_newton, 0.05, 0.025);
+        continue;
+      }
       const size = m.value(force.curve, time);
       const length = Math.max(0, size) * force.metres_per_newton;
       arrow.visible = length > 0.02;

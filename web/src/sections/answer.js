@@ -16,7 +16,7 @@ export function answer(data) {
       `${counts.landings.toLocaleString("en")} landings of the full model were computed: ` +
       `${counts.engaged.toLocaleString("en")} engaged, ${counts.missed.toLocaleString("en")} missed, ` +
       `${counts.failed.toLocaleString("en")} failed (failed runs count as neither).`));
-  parts.push(element("p", { class: "note" },
+  if (all || counts) parts.push(element("p", { class: "note" },
     "The interval covers sampling and the error of the classifier. It does not cover how well the model and its numbers " +
     "describe a real aircraft, deck and pilot: numbers marked assumed or calibrated below have no measurement behind them."));
   for (const warning of data.reliability?.warnings ?? []) parts.push(element("p", { class: "warning" }, warning));

@@ -1,7 +1,7 @@
 import * as Plot from "@observablehq/plot";
 import { floats } from "../data.js";
 import { element, table } from "../dom.js";
-import { colours, figure, plotStyle, symbols } from "../figure.js";
+import { acrossAxis, below, colours, figure, plotStyle, symbols } from "../figure.js";
 
 const MOST = 3000;
 
@@ -48,20 +48,20 @@ export function atlas(data, show) {
     told.textContent = `Landing ${landing.run}: ${landing.mode.replaceAll("_", " ")}` +
       (Number.isFinite(landing.margin_mm) ? `, margin ${landing.margin_mm.toFixed(1)} mm` : "") + "; " +
       data.inputs.map((input, k) => `${input.label} ${landing.x[k].toPrecision(4)} ${input.unit}`).join(", ") +
-      `. To see it again: bolter replay ${landing.run} ${data.study.file}`;
+      `. To see it again: bolter replay ${data.study.file} ${landing.run}`;
     show(landing);
   };
   const made = figure({
     name: "atlas",
     caption: `Landings of the campaign by two inputs and how they ended (${shown.length.toLocaleString("en")} of ` +
-      `${all.length.toLocaleString("en")} drawn: every miss, and a share of the rest).`,
+      `${(data.counts?.landings ?? all.length).toLocaleString("en")} drawn: every miss, and a share of the rest).`,
     columns: ["run", ...data.inputs.map((i) => `${i.path} [${i.unit}]`), "mode", "margin [mm]"],
     rows: all.map((l) => [l.run, ...l.x, l.mode, l.margin_mm]),
     draw: (width) => {
       const [a, b] = axis.map((k) => data.inputs[k]);
       const svg = Plot.plot({
-        width, height: Math.min(520, 0.7 * width), style: plotStyle,
-        x: { label: `${a.label}, ${a.unit}`, grid: true }, y: { label: `${b.label}, ${b.unit}`, grid: true },
+        width, height: Math.min(520, 0.7 * width), style: plotStyle, ...below,
+        x: acrossAxis(`${a.label}, ${a.unit}`), y: { label: `${b.label}, ${b.unit}`, grid: true },
         color: { domain: present, range: present.map((m) => colours[m] ?? "#000") },
         symbol: { domain: present, range: present.map((m) => symbols[m] ?? "circle") },
         marks: [Plot.dot(shown, { x: (l) => l.x[axis[0]], y: (l) => l.x[axis[1]], stroke: "mode", symbol: "mode", r: 2.5, strokeOpacity: 0.8 })],
@@ -73,10 +73,11 @@ export function atlas(data, show) {
       return svg;
     },
   });
+  const total = data.counts?.landings ?? all.length;
   const legend = element("p", { class: "legend" }, ...present.map((mode) => {
-    const count = all.filter((l) => l.mode === mode).length;
+    const count = data.counts?.modes?.[mode] ?? all.filter((l) => l.mode === mode).length;
     return element("span", {}, element("i", { style: `background:${colours[mode] ?? "#000"}` }),
-      `${mode.replaceAll("_", " ")} ${count.toLocaleString("en")} (${((100 * count) / all.length).toFixed(1)} %)`);
+      `${mode.replaceAll("_", " ")} ${count.toLocaleString("en")} (${((100 * count) / total).toFixed(1)} %)`);
   }));
   const select = (k) => (value) => { axis[k] = value; made.redraw(); };
   return element("section", { id: "atlas" },

@@ -1,7 +1,7 @@
 import * as Plot from "@observablehq/plot";
 import { percent } from "../data.js";
 import { element, table } from "../dom.js";
-import { figure, plotStyle, series } from "../figure.js";
+import { acrossAxis, below, figure, key, plotStyle, series } from "../figure.js";
 
 const figures = {
   "landing.sink_speed": "Fig. 19", "landing.pitch": "Fig. 20",
@@ -19,8 +19,8 @@ function curve(data, input, rows) {
     columns: [`${input.path} [${input.unit}]`, "corrected", "lower", "upper", "surrogate", "surrogate_lower", "surrogate_upper"],
     rows: rows.map((r) => [at(r), r.corrected, ...(r.corrected_ci95 ?? []), r.surrogate, ...(r.surrogate_ci95 ?? [])]),
     draw: (width) => Plot.plot({
-      width, height: 300, style: plotStyle, marginLeft: 50,
-      x: { label: `mean of ${input.label}, ${input.unit}`, grid: true, nice: true },
+      width, height: 320, style: plotStyle, marginLeft: 50, ...below,
+      x: { ...acrossAxis(`mean of ${input.label}, ${input.unit}`), nice: true, inset: 6 },
       y: { label: "probability of engagement, %", percent: true, grid: true },
       marks: [
         Plot.ruleX(rows, { x: at, y1: (r) => r.corrected_ci95?.[0], y2: (r) => r.corrected_ci95?.[1], stroke: series[0], strokeWidth: 2 }),
@@ -28,6 +28,7 @@ function curve(data, input, rows) {
         Plot.dot(rows, { x: at, y: "corrected", fill: series[0], r: 4,
           title: (r) => `${at(r).toPrecision(4)} ${input.unit}: ${percent(r.corrected, r.corrected_ci95)}`, tip: true }),
         Plot.dot(rows, { x: at, y: "surrogate", stroke: series[1], symbol: "times", r: 4 }),
+        ...key(["corrected", "classifier alone"], (_, i) => series[i], { anchor: "bottom-right", dy: -20 }),
       ],
     }),
   });

@@ -1,6 +1,6 @@
 import * as Plot from "@observablehq/plot";
 import { element, table } from "../dom.js";
-import { figure, plotStyle, series } from "../figure.js";
+import { acrossAxis, below, figure, key, plotStyle, series } from "../figure.js";
 
 /** Rigs beside their references, with their curves. */
 export function rigs(data) {
@@ -17,10 +17,10 @@ export function rigs(data) {
           name: `${rig.name}-${f.name}`, caption: f.caption,
           columns: [f.x.label, ...f.y.map((c) => c.label)], rows: f.x.values.map((x, i) => [x, ...f.y.map((c) => c.values[i])]),
           draw: (width) => Plot.plot({
-            width, height: 260, style: plotStyle, marginLeft: 60,
-            color: { domain: f.y.map((c) => c.label), range: series }, x: { label: f.x.label, grid: true }, y: { label: f.label, grid: true },
+            width, height: 280, style: plotStyle, marginLeft: 60, ...below,
+            color: { domain: f.y.map((c) => c.label), range: series }, x: acrossAxis(f.x.label), y: { label: f.label, grid: true },
             marks: [Plot.line(points, { x: "x", y: "y", stroke: "what", z: "what" }),
-              Plot.text(points, Plot.selectMaxY({ x: "x", y: "y", z: "what", text: "what", fill: "what", dy: -8 })),
+              ...key(f.y.map((c) => c.label), (_, i) => series[i]),
               Plot.dot(f.measured ?? [], { x: "x", y: "y", stroke: "currentColor" })],
           }),
         });

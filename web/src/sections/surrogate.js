@@ -1,7 +1,7 @@
 import * as Plot from "@observablehq/plot";
 import { percent } from "../data.js";
 import { element, table } from "../dom.js";
-import { figure, plotStyle, series } from "../figure.js";
+import { acrossAxis, below, figure, plotStyle, series } from "../figure.js";
 
 /** How well the classifier does: hold-out, confusion, calibration. */
 export function surrogate(data) {
@@ -19,7 +19,7 @@ export function surrogate(data) {
       name: "calibration", caption: "Share engaged of the landings in each class of decision value, with 95 % intervals: a good classifier steps from 0 to 1 at 0.",
       columns: ["decision", "share", "lower", "upper", "landings"], rows: calibration.map((r) => [r.decision, r.share, ...r.ci95, r.n]),
       draw: (width) => Plot.plot({
-        width, height: 240, style: plotStyle, x: { label: "decision value", grid: true }, y: { label: "share engaged", domain: [0, 1], grid: true },
+        width, height: 260, style: plotStyle, ...below, x: acrossAxis("decision value"), y: { label: "share engaged", domain: [0, 1], grid: true },
         marks: [Plot.ruleX(calibration, { x: "decision", y1: (r) => r.ci95[0], y2: (r) => r.ci95[1], stroke: series[0] }),
           Plot.dot(calibration, { x: "decision", y: "share", fill: series[0] }), Plot.ruleX([0], { strokeDasharray: "4" })],
       }),

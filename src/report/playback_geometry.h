@@ -1,0 +1,20 @@
+/// Shapes of the model's parts for the page, from the model's own numbers.
+#ifndef BT_REPORT_PLAYBACK_GEOMETRY_H
+#define BT_REPORT_PLAYBACK_GEOMETRY_H
+
+#include "landing/airframe.h"
+#include "landing/params.h"
+#include "report/json.h"
+
+enum { BT_OUTLINE_MAX = 128 };
+
+/// The head's outline, counterclockwise from the back of the shoe, cut off up the arm.
+/// @param reach_m  where the arm is cut, from the centre of the shoe arc
+/// @return number of points
+int bt_hook_outline(const bt_profile* profile, double reach_m, double outline[BT_OUTLINE_MAX][2]);
+
+/// Members of the present object: fuselage, pistons, wheels, hook, deck. The fuselage's solid is a
+/// sketch of the aircraft's size; legs, wheels, hook and deck have the model's dimensions.
+void bt_geometry_write(bt_json* json, const bt_airframe* airframe, const bt_model_params* model);
+
+#endif
