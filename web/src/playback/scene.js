@@ -70,14 +70,13 @@ function deck(g) {
   const group = new Group();
   const width = 1.4 * g.span_m;
   const plate = new Mesh(new PlaneGeometry(120, width), new MeshStandardMaterial({ color: 0x5a6066, roughness: 0.95, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
-  const ends = [];
-  for (let x = -30; x <= 30; ++x) ends.push(x, -0.5 * width, 0.001, x, 0.5 * width, 0.001);
-  for (let i = -20; i <= 20; ++i) { // every 10 cm where hook and cable meet
-    ends.push(0.1 * i, -2, 0.001, 0.1 * i, 2, 0.001);
-    ends.push(-2, 0.1 * i, 0.001, 2, 0.1 * i, 0.001);
-  }
-  const lines = new LineSegments(new BufferGeometry().setAttribute("position", new Float32BufferAttribute(ends, 3)), new LineBasicMaterial({ color: 0x474d53 }));
-  group.add(plate, lines);
+  const coarse = [];
+  for (let x = -30; x <= 30; ++x) coarse.push(x, -0.5 * width, 0.001, x, 0.5 * width, 0.001);
+  const fine = []; // every 10 cm where hook and cable meet
+  for (let i = -20; i <= 20; ++i) fine.push(0.1 * i, -2, 0.001, 0.1 * i, 2, 0.001, -2, 0.1 * i, 0.001, 2, 0.1 * i, 0.001);
+  const grid = (ends, opacity) => new LineSegments(new BufferGeometry().setAttribute("position", new Float32BufferAttribute(ends, 3)),
+    new LineBasicMaterial({ color: 0x30353a, transparent: true, opacity }));
+  group.add(plate, grid(coarse, 0.6), grid(fine, 0.15));
   for (const y of g.supports_m) {
     const leaf = new Mesh(new BoxGeometry(0.25, 0.05, g.support_height_m), metal(0xe69f00));
     leaf.position.set(0, y, 0.5 * g.support_height_m);
