@@ -43,4 +43,9 @@ run drop_test studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv
 "$scratch/shared" studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv >"$scratch/b"
 cmp "$scratch/a" "$scratch/b"
 run campaign "$study" 64 "$scratch/campaign" 2>/dev/null
+# Python, from the installed files alone
+if command -v python3 >/dev/null; then
+    (cd "$scratch" && unset LD_LIBRARY_PATH &&
+        PYTHONPATH=$prefix/lib/python3/dist-packages python3 -m bolter.examples.drop_test_fit)
+fi
 echo "clients: every example built against the installed library and ran"

@@ -35,6 +35,32 @@ typedef struct bt_landing_report {
 /// can be assembled (the reason went to the message function); BT_ERR_MEMORY.
 BT_PUBLIC BT_CHECKED bt_status bt_case_land(bt_case* opened, bt_landing_report* report);
 
+/// One line of the time histories: the columns that `bolter land -o x.csv` writes, and the cable.
+/// Arrays and names are valid during the call only.
+typedef struct bt_landing_line {
+    double time_s; ///< since the first contact of any part with the deck
+    int count;
+    const char* const* names; ///< [count] with their units: "hook_height_m", "nose_stroke_m"
+    const double* values;     ///< [count] SI
+    int cable_count;          ///< segments of the cable
+    const double *cable_x_m, *cable_y_m, *cable_z_m; ///< [cable_count] their centres
+    const double* cable_tension_N;                   ///< [cable_count - 1] between neighbours
+} bt_landing_line;
+
+/// Called at the start, after every airframe step, and at the end.
+typedef void bt_landing_watch(void* user, const bt_landing_line* line);
+
+/// What else to do. Set size to sizeof(bt_landing_def); what is zero is the default.
+typedef struct bt_landing_def {
+    size_t size;
+    bt_landing_watch* watch; ///< may be NULL
+    void* user;
+} bt_landing_def;
+
+/// bt_case_land with a watcher; the landing keeps its bits. Errors as bt_case_land.
+BT_PUBLIC BT_CHECKED bt_status bt_case_land_watched(bt_case* opened, const bt_landing_def* def,
+                                                    bt_landing_report* report);
+
 /// One quantity of a landing, as `bolter keys --results` lists them. The texts are static.
 typedef struct bt_result_info {
     const char* name; ///< column of the ledger and of a CSV file: "strut_stroke_max_left_m"

@@ -2,9 +2,13 @@
 
 #include "api/case.h"
 #include "base/units.h"
+#include "landing/view.h"
 
 #include <math.h>
 #include <stdio.h>
+
+/// At least as many numbers as a view has.
+enum { VIEW_MAX = sizeof(bt_landing_view) / sizeof(double) };
 
 bool bt_case_report(const bt_landing_result* result, bt_landing_report* report) {
     bt_landing_report full = {
@@ -38,15 +42,50 @@ bool bt_case_report(const bt_landing_result* result, bt_landing_report* report) 
     return true;
 }
 
-bt_status bt_case_land(bt_case* opened, bt_landing_report* report) {
+/// A watcher, and the names of what it sees.
+typedef struct watching {
+    bt_landing_def def;
+    const char* names[VIEW_MAX];
+    double values[VIEW_MAX];
+} watching;
+
+static void show_line(void* user, const bt_landing_view* view) {
+    watching* w = user;
+    for (int i = 0; i < bt_view_column_count; ++i)
+        w->values[i] = bt_view_real(&bt_view_columns[i], view);
+    const bt_landing_line line = {
+        .time_s = view->time_s,
+        .count = bt_view_column_count,
+        .names = w->names,
+        .values = w->values,
+        .cable_count = view->cable_count,
+        .cable_x_m = view->cable_x,
+        .cable_y_m = view->cable_y,
+        .cable_z_m = view->cable_z,
+        .cable_tension_N = view->cable_tension_N,
+    };
+    w->def.watch(w->def.user, &line);
+}
+
+bt_status bt_case_land_watched(bt_case* opened, const bt_landing_def* def,
+                               bt_landing_report* report) {
     bt_diag diag = bt_case_diag(opened);
+    watching w;
     opened->landed = false;
-    if (report->size < sizeof report->size)
+    if (!BT_DEF_COPY(w.def, def) || report->size < sizeof report->size)
         return BT_ERR_ARG;
+    for (int i = 0; i < bt_view_column_count; ++i)
+        w.names[i] = bt_view_columns[i].name;
     BT_TRY(bt_group_check(&bt_model_group, &opened->study.model, "", &diag));
-    BT_TRY(bt_lander_run(opened->lander, &opened->study.model, &opened->last, NULL, NULL, &diag));
+    BT_TRY(bt_lander_run(opened->lander, &opened->study.model, &opened->last,
+                         w.def.watch ? show_line : NULL, &w, &diag));
     opened->landed = true;
     return bt_case_report(&opened->last, report) ? BT_OK : BT_ERR_ARG;
+}
+
+bt_status bt_case_land(bt_case* opened, bt_landing_report* report) {
+    const bt_landing_def def = {.size = sizeof def};
+    return bt_case_land_watched(opened, &def, report);
 }
 
 void bt_results(bt_result_visit* visit, void* user) {
