@@ -26,7 +26,7 @@ static void each_distance_has_a_table(void** state) {
         bolter(f, TYPED "--at '2 m,5.5 m' --keys aircraft.main_gear.tyre.bridging_length"), 0);
     assert_has(f->out, "## D = 2 m");
     assert_has(f->out, "## D = 5.5 m");
-    assert_has(f->out, "| aircraft.main_gear.tyre.bridging_length | 0 | 0 | 0.15 | m | ");
+    assert_has(f->out, "| aircraft.main_gear.tyre.bridging_length | 0.05 | 0 | 0.15 | m | ");
 }
 
 /// Held at a distance the landing is that of the study with this distance, the others drawn.

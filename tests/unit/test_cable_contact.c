@@ -210,7 +210,8 @@ static void a_locked_wheel_drags_the_rope_with_coulombs_force(void** state) {
         wheel.velocity_mps[0] = 47.5;
         bt_moving_body_to(&wheel, 0);
         press_wheel(&contact, &r, &wheel);
-        BT_ASSERT_NEAR(wheel.impulse_Ns[0] / step_s, -0.2 * contact.normal_N, 1e-9, 0);
+        // less what the rope's own motion in the step turns the slip: (v_n / 47.5 m/s)^2 / 2
+        BT_ASSERT_NEAR(wheel.impulse_Ns[0] / step_s, -0.2 * contact.normal_N, 3e-9, 0);
         assert_opposite(&r, &wheel, step_s);
         rope_close(&r);
     }

@@ -150,7 +150,7 @@ static void without_dampers_the_cable_keeps_what_the_contacts_give_it(void** sta
         REFERENCE("deck.cable.axial_damping=0 N*s", "deck.cable.bending_damping=0 N*m2*s",
                   "deck.cable.twist_damping=0 N*m2*s", "deck.cable.supports.damping=0 N*s/m",
                   "deck.cable.sheaves.purchase_damping=0 N*s/m", "deck.cable.deck.friction=0",
-                  "deck.cable.deck.restitution=1", "landing.solver.cable_courant=0.1");
+                  "deck.cable.deck.restitution=1", "landing.solver.cable_courant=0.05");
     bt_lander* lander = new_lander();
     for (int k = 0; k < 3; ++k) {
         ledger b = {.begun = false};
