@@ -15,9 +15,11 @@ typedef struct bt_landing_report {
     bool failed;     ///< the computation diverged: no label. See failure
     bool engaged;    ///< the throat caught the cable
     bool retained;   ///< and still held it at the end of the run
-    char mode[16];   ///< direct, arm, bounced_over, passed_over, ridden_over, ..., none
+    char mode[16];   ///< caught: direct, arm; missed: bounced_over, passed_over, ridden_over,
+                     ///< passed_beside (beyond the end of the cable), stopped (at rest before
+                     ///< it); failed: none
     double margin_m; ///< cable centre above lip centre when they meet; positive when caught; NAN
-                     ///< without a meeting
+                     ///< without a meeting: passed_beside, stopped, failed
     /// Loads of the hook on the deck are not calibrated (docs/theory/shank.md); loads after a catch
     /// hold for 50 ms, since no arresting engine pays out.
     double throat_force_peak_N, hook_deck_force_peak_N, cable_tension_max_N;

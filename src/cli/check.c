@@ -7,7 +7,9 @@
 
 #include "base/units.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /// Settings at which the label-noise study (docs/label-noise.md) has shown that outcomes do not
 /// hang on the computation: the defaults of these keys. Coarser ones have not been shown to be
@@ -105,6 +107,52 @@ static bt_status try_ends(const bt_study* study, bt_diag* diag) {
     return status;
 }
 
+/// The part of the aircraft that reaches farthest from the centreline where it comes to the wire:
+/// the outer edge of a main wheel, or the hook's head, swung out by a yawed aircraft. Level, struts
+/// extended.
+static double reach_from_centreline(const bt_model_params* model, double off_centre_m,
+                                    const char** part) {
+    const bt_gear_params* gear = &model->aircraft.main_gear;
+    const bt_hook_params* hook = &model->aircraft.hook;
+    const double s = sin(model->landing.yaw_rad), c = cos(model->landing.yaw_rad);
+    const double half_track_m =
+        gear->half_track_m + 0.5 * gear->tyre.width_m * (double)gear->tyre.tyres;
+    const double wheel_m = fabs(off_centre_m + s * gear->station_m) + c * half_track_m;
+    const double shoe_x_m = hook->pivot_x_m - hook->length_m * cos(hook->down_stop_rad);
+    const double hook_m = fabs(off_centre_m + s * shoe_x_m) + 0.5 * hook->profile.width_m;
+    const double half_span_m = 0.5 * model->deck.cable.span_m;
+    *part = hook_m > half_span_m ? "the hook" : "a main wheel";
+    return hook_m > half_span_m ? hook_m : wheel_m;
+}
+
+/// A landing may pass beside the wire, and does (mode passed_beside); it is seldom meant.
+static void warn_beside(const bt_study* study, bt_where where, double off_centre_m, bt_diag* diag) {
+    const char* part;
+    const double reach_m = reach_from_centreline(&study->model, off_centre_m, &part);
+    const double beyond_m = reach_m - 0.5 * study->model.deck.cable.span_m;
+    if (beyond_m > 0)
+        bt_diag_add(diag, BT_WARNING, where,
+                    "landing.off_centre: at %.4g m %s passes %.3g m beyond the end of the wire "
+                    "(deck.cable.span %.4g m); at most %.4g m off the centre, or a span of %.4g m, "
+                    "would do",
+                    off_centre_m, part, beyond_m, study->model.deck.cable.span_m,
+                    fmax(0, fabs(off_centre_m) - beyond_m), 2 * reach_m);
+}
+
+/// As the study stands, or where the values of a scattering landing.off_centre end.
+static void warn_of_span(const bt_study* study, bt_diag* diag) {
+    double ends[2] = {study->model.landing.off_centre_m, study->model.landing.off_centre_m};
+    bt_where where = BT_NOWHERE;
+    for (int i = 0; i < study->input_count; ++i)
+        if (strcmp(study->inputs[i].path, "landing.off_centre") == 0) {
+            ends_of(study, &study->inputs[i], ends);
+            where = study->inputs[i].where;
+        }
+    warn_beside(study, where, ends[0], diag);
+    if (ends[1] != ends[0])
+        warn_beside(study, where, ends[1], diag);
+}
+
 static void print_text(const bt_study* study, int64_t runs, const bt_stable_step* steps,
                        int step_count) {
     const bt_axes axes = bt_design_axes(study);
@@ -195,6 +243,7 @@ static bt_status check(const bt_command* command, const bt_study* study) {
     int step_count = 0;
     BT_TRY(bt_stable_steps(&study->model, steps, &step_count, &diag));
     warn(study, &diag);
+    warn_of_span(study, &diag);
     BT_TRY(try_ends(study, &diag));
     if (command->json)
         print_json(study, runs, steps, step_count);

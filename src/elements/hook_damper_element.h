@@ -34,7 +34,7 @@ void bt_hook_damper_place(double down_stop_rad, double lever_m, double angle_rad
 /// Shank angle below the fuselage axis at which the hook hangs on its down stop, rad: gas, stop and
 /// weight in balance about the pivot.
 ///
-/// @param weight_moment_Nm  mass times felt gravity times distance of the mass centre from the
+/// @param weight_moment_Nm  mass times effective gravity times distance of the mass centre from the
 /// pivot
 /// @param pitch_rad         of the fuselage axis, nose up positive
 double bt_hook_damper_hanging_angle(const bt_hook_damper* damper, double down_stop_rad,

@@ -7,6 +7,7 @@
 #include "elements/yaw_damper.h"
 #include "mechanics/vec.h"
 
+#include <math.h>
 #include <string.h>
 
 const char* const bt_body_names[BT_BODY_COUNT] = {"fuselage",     "nose_piston", "left_piston",
@@ -289,12 +290,12 @@ static void add_hook(const bt_aircraft_params* p, const bt_hook_damper* damper, 
 }
 
 /// How the hook hangs: the damper's stop holds its weight, the shank's spring that of the head.
-static void hang_hook(const bt_hook_params* hook, const bt_hook_damper* damper, double felt_mps2,
-                      bt_airframe* f) {
+static void hang_hook(const bt_hook_params* hook, const bt_hook_damper* damper,
+                      double effective_mps2, bt_airframe* f) {
     const bt_shank* shank = &f->shank;
-    double moment_Nm = hook->mass_kg * felt_mps2 * hook->mass_centre_m;
+    double moment_Nm = hook->mass_kg * effective_mps2 * hook->mass_centre_m;
     const double head_Nm =
-        shank->head.mass_kg * felt_mps2 * (shank->head.centre_m - shank->joint_m);
+        shank->head.mass_kg * effective_mps2 * (shank->head.centre_m - shank->joint_m);
     for (int turn = 0; turn < (shank->bends ? 20 : 1); ++turn) {
         const double root = f->hook_angle_rad = bt_hook_damper_hanging_angle(
             damper, hook->down_stop_rad, hook->damper_lever_m, hook->damper_angle_rad,
@@ -305,7 +306,7 @@ static void hang_hook(const bt_hook_params* hook, const bt_hook_damper* damper, 
         for (int i = 0; i < 10; ++i)
             f->head_angle_rad = root + head_Nm * cos(f->head_angle_rad) / shank->stiffness_Nmprad;
         const double lost_Nm = head_Nm * (1 - cos(f->head_angle_rad) / cos(root));
-        moment_Nm = hook->mass_kg * felt_mps2 * hook->mass_centre_m - lost_Nm;
+        moment_Nm = hook->mass_kg * effective_mps2 * hook->mass_centre_m - lost_Nm;
     }
 }
 
@@ -315,10 +316,11 @@ static bt_status assemble(const bt_aircraft_params* p, double gravity_mps2, bt_a
     bt_hook_damper_prepare(&p->hook.damper, &damper);
 
     // how the parts hang in the glide, where lift carries lift_ratio of the weight
-    const double felt = p->lift_ratio * gravity_mps2;
+    const double effective_mps2 = p->lift_ratio * gravity_mps2;
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
-        f->stroke_m[leg] = bt_oleo_hanging_stroke(&f->oleo[leg], felt * f->unsprung_kg[leg]);
-    hang_hook(&p->hook, &damper, felt, f);
+        f->stroke_m[leg] =
+            bt_oleo_hanging_stroke(&f->oleo[leg], effective_mps2 * f->unsprung_kg[leg]);
+    hang_hook(&p->hook, &damper, effective_mps2, f);
 
     bt_body_def parts[BODIES_MAX] = {0};
     describe_parts(p, f, parts);
@@ -329,6 +331,8 @@ static bt_status assemble(const bt_aircraft_params* p, double gravity_mps2, bt_a
     add_hook(p, &damper, f);
 
     bt_force lift = {.force_N = {0, 0, p->lift_ratio * p->mass_kg * gravity_mps2}};
+    f->has_tail = p->tail.x_m != 0 || p->tail.z_m != 0;
+    from_fuselage(f, (double[]){p->tail.x_m, 0, p->tail.z_m}, f->tail_m);
     static const double centre[3] = {0};
     from_fuselage(f, centre, lift.point_b_m);
     bt_system_add_element(f->system, &(bt_element){.type = &bt_force_element,
@@ -398,6 +402,15 @@ void bt_airframe_place(const bt_airframe* f, const bt_landing_params* landing,
             glide->tyre_m[leg][i] = q[i] + f->tyre[leg].radius * down[i];
     }
     bt_shoe_lowest(&f->shoe_contact, &motion, BT_BODY_HOOK, glide->hook_m);
+}
+
+double bt_airframe_tail_height(const bt_airframe* airframe, const bt_state* state) {
+    if (!airframe->has_tail)
+        return INFINITY;
+    const bt_motion motion = {.q = state->q, .v = state->v, .rotation = state->rotation};
+    double tail_m[3];
+    bt_point_position(&motion, BT_BODY_FUSELAGE, airframe->tail_m, tail_m);
+    return tail_m[2];
 }
 
 void bt_airframe_move(const bt_airframe* airframe, const double shift_m[3], bt_state* state) {

@@ -24,6 +24,8 @@ typedef struct bt_airframe {
     double fuselage_m[3];              ///< fuselage's centre of mass from the aircraft's
     double axle_m[BT_LEG_COUNT][3];    ///< axles from the centre of gravity, struts extended
     double pivot_m[3];                 ///< hook pivot from the centre of gravity
+    bool has_tail;                     ///< a point of the fuselage must clear the deck
+    double tail_m[3];                  ///< that point in the fuselage's body frame
     double shoe_m[3];                  ///< shoe arc's centre in the hook's body frame
     bt_shoe shoe_contact;
     double stroke_m[BT_LEG_COUNT]; ///< in the glide: struts at rest on their stops
@@ -49,6 +51,9 @@ typedef struct bt_glide {
 /// (0, off_centre, 0). The velocity stays along x whatever the yaw.
 void bt_airframe_place(const bt_airframe* airframe, const bt_landing_params* landing,
                        const bt_state* hanging, bt_state* state, bt_glide* glide);
+
+/// Height of the tail above the deck, m; INFINITY where it is not looked at.
+double bt_airframe_tail_height(const bt_airframe* airframe, const bt_state* state);
 
 /// Moves all bodies by the same shift.
 void bt_airframe_move(const bt_airframe* airframe, const double shift_m[3], bt_state* state);

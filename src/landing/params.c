@@ -52,6 +52,10 @@ static void check_hook(const void* params, const char* path, bt_diag* diag) {
 BT_DEFINE_GROUP(hook, BT_HOOK_FIELDS, ROW, check_hook, "the arresting hook and what holds it")
 #undef ROW
 
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_tail_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(tail, BT_TAIL_FIELDS, ROW, NULL, "a point of the fuselage that must clear the deck")
+#undef ROW
+
 #define ROW(kind, name, ...) BT_ROW_##kind(bt_aircraft_params, name, __VA_ARGS__)
 BT_DEFINE_GROUP(aircraft, BT_AIRCRAFT_FIELDS, ROW, NULL, "the aircraft")
 #undef ROW

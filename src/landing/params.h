@@ -90,6 +90,13 @@ BT_DECLARE_GROUP(hook_cable, BT_HOOK_CABLE_FIELDS)
     F(GROUP, cable_contact, hook_cable, OPTIONAL, 0, 0, 0, "", "hook on cable")
 BT_DECLARE_GROUP(hook, BT_HOOK_FIELDS)
 
+#define BT_TAIL_FIELDS(F)                                                                          \
+    F(REAL, x, m, OPTIONAL, 0, -60, 60, "",                                                        \
+      "lowest point of the tail from the centre of gravity, forward positive; x and z both 0: "    \
+      "not looked at")                                                                             \
+    F(REAL, z, m, OPTIONAL, 0, -20, 20, "", "and up positive")
+BT_DECLARE_GROUP(tail, BT_TAIL_FIELDS)
+
 #define BT_AIRCRAFT_FIELDS(F)                                                                      \
     F(REAL, mass, kg, REQUIRED, 22000, 100, 1e6, "Eq. 1", "landing mass, everything included")     \
     F(REAL, inertia_xx, kgm2, REQUIRED, 9.0e4, 10, 1e9, "Eq. 1",                                   \
@@ -103,7 +110,8 @@ BT_DECLARE_GROUP(hook, BT_HOOK_FIELDS)
       "steady")                                                                                    \
     F(GROUP, nose_gear, gear, REQUIRED, 0, 0, 0, "", "nose leg")                                   \
     F(GROUP, main_gear, gear, REQUIRED, 0, 0, 0, "", "main legs, left and right alike")            \
-    F(GROUP, hook, hook, REQUIRED, 0, 0, 0, "", "arresting hook")
+    F(GROUP, hook, hook, REQUIRED, 0, 0, 0, "", "arresting hook")                                  \
+    F(GROUP, tail, tail, OPTIONAL, 0, 0, 0, "", "what of the fuselage may come down to the deck")
 BT_DECLARE_GROUP(aircraft, BT_AIRCRAFT_FIELDS)
 
 #define BT_DECK_FIELDS(F)                                                                          \

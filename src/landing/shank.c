@@ -88,7 +88,7 @@ static double whole_inertia(const bt_shank* s) {
     return s->head.inertia_kgm2 + s->head.mass_kg * s->head.centre_m * s->head.centre_m;
 }
 
-double bt_shank_felt_mass(const bt_shank* shank, double length_m, double angle_rad) {
+double bt_shank_effective_mass(const bt_shank* shank, double length_m, double angle_rad) {
     const double c = cos(angle_rad), arm = length_m * c;
     double inverse[3];
     if (!shank->bends)

@@ -42,7 +42,7 @@ double bt_shank_frequency2(const bt_shank* shank);
 
 /// Mass that a vertical force meets at the shoe, kg: the shank `angle_rad` below the horizontal,
 /// pivot held, damper and joint slack (an impact is over before they push).
-double bt_shank_felt_mass(const bt_shank* shank, double length_m, double angle_rad);
+double bt_shank_effective_mass(const bt_shank* shank, double length_m, double angle_rad);
 
 /// Inertia of the root about the pivot as a moment there meets it with the joint slack; the whole
 /// hook's when it does not bend, kg m2.

@@ -24,8 +24,8 @@ static double damped_step(double stiffness, double damping, double mass) {
     return (sqrt(g * g + 4 * omega2) - g) / omega2;
 }
 
-/// Contact of the shoe at the depth of an impact at the sinking velocity; the hook's mass as felt
-/// at the shoe is I / x^2, x the horizontal distance of shoe and pivot.
+/// Contact of the shoe at the depth of an impact at the sinking velocity; the hook's effective
+/// mass at the shoe is I / x^2, x the horizontal distance of shoe and pivot.
 static double shoe_step(const bt_model_params* model) {
     const bt_hook_params* hook = &model->aircraft.hook;
     bt_impact contact;
@@ -33,7 +33,7 @@ static double shoe_step(const bt_model_params* model) {
     const double angle = fmin(hook->down_stop_rad, 1.4), arm = hook->length_m * cos(angle);
     bt_shank shank;
     bt_shank_prepare(hook, &shank);
-    const double mass = shank.bends ? bt_shank_felt_mass(&shank, hook->length_m, angle)
+    const double mass = shank.bends ? bt_shank_effective_mass(&shank, hook->length_m, angle)
                                     : hook->inertia_kgm2 / (arm * arm);
     const double v = model->landing.sink_speed_mps;
     const double depth = pow(1.25 * mass * v * v / contact.stiffness, 0.4);

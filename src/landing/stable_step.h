@@ -24,7 +24,7 @@ enum { BT_STABLE_STEP_MAX = 12 };
 /// the
 ///            damper's lever
 /// shoe       slope 3/2 K delta^1/2 of Eq. 10 at the depth of an impact at the sinking velocity,
-///            delta = (5 m v^2 / (4 K))^(2/5), m the hook's mass as felt at the shoe, and its
+///            delta = (5 m v^2 / (4 K))^(2/5), m the hook's effective mass at the shoe, and its
 ///            damping c = lambda K delta^3/2, which shortens the step to h: omega^2 h^2 + 2 (c / m)
 ///            h = 4
 ///

@@ -174,6 +174,8 @@ static bool laws_hold(const bt_landing_model* m, bt_landing_state* s) {
         if (law == BT_LAW_AT_LIMIT && parts[k].remark < BT_REMARK_COUNT)
             bt_remarks_note(&s->result.remarks, (bt_remark)parts[k].remark, s->airframe.time_s);
     }
+    if (bt_airframe_tail_height(f, &s->airframe) <= 0)
+        bt_remarks_note(&s->result.remarks, BT_REMARK_TAIL_CLEARANCE, s->airframe.time_s);
     return true;
 }
 

@@ -91,8 +91,8 @@ static bt_status build(const bt_gear_params* gear, const bt_drop_params* drop, d
     bt_tyre_prepare(&gear->tyre, &wheel.tyre);
     d->tyre = wheel.tyre;
     // As it falls: the stop carries the gas, and what the unsprung parts feel of the lift.
-    const double felt = drop->lift_ratio * drop->gravity_mps2;
-    add_bodies(gear, drop, bt_oleo_hanging_stroke(&strut.oleo, unsprung * felt), d);
+    const double effective_mps2 = drop->lift_ratio * drop->gravity_mps2;
+    add_bodies(gear, drop, bt_oleo_hanging_stroke(&strut.oleo, unsprung * effective_mps2), d);
     add_joints(d->rig.system, height);
     d->strut = bt_system_add_element(d->rig.system, &(bt_element){.type = &bt_strut_type,
                                                                   .name = "strut",

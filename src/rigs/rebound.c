@@ -205,15 +205,15 @@ static bt_status build(const bt_hook_params* hook, const bt_rebound_params* p, r
     BT_TRY(describe_shoe(hook, p, r));
     bt_hook_damper damper;
     bt_hook_damper_prepare(&hook->damper, &damper);
-    const double felt = p->lift_ratio * p->gravity_mps2;
+    const double effective_mps2 = p->lift_ratio * p->gravity_mps2;
     const double shank = bt_hook_damper_hanging_angle(
         &damper, hook->down_stop_rad, hook->damper_lever_m, hook->damper_angle_rad,
-        hook->damper_length_m, hook->mass_kg * felt * hook->mass_centre_m, p->pitch_rad);
+        hook->damper_length_m, hook->mass_kg * effective_mps2 * hook->mass_centre_m, p->pitch_rad);
     double pivot_height;
     add_bodies(hook, p, shank, r, &pivot_height);
     add_joints(hook, p, pivot_height, r->rig.system);
     add_elements(hook, &damper, p, pivot_height, r);
-    r->lift_N = felt * (p->basket_mass_kg + hook->mass_kg);
+    r->lift_N = effective_mps2 * (p->basket_mass_kg + hook->mass_kg);
     return bt_rig_start(&r->rig, p->gravity_mps2);
 }
 

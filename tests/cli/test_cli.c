@@ -234,6 +234,24 @@ static void a_mesh_too_fine_for_the_memory_of_a_landing_is_refused(void** state)
     assert_has(f->err, "a landing has room for 1000; segments");
 }
 
+static void check_says_what_passes_beside_the_wire(void** state) {
+    fixture* f = *state;
+    assert_int_equal(bolter(f, "check " REFERENCE " --set deck.cable.span='20 m'"
+                               " --set landing.off_centre='12 m'"),
+                     0);
+    assert_has(f->err, "warning: landing.off_centre: at 12 m the hook passes 2.06 m beyond the end "
+                       "of the wire (deck.cable.span 20 m); at most 9.94 m off the centre, or a "
+                       "span of 24.12 m, would do");
+    assert_int_equal(bolter(f, "check " REFERENCE " --set deck.cable.span='20 m'"
+                               " --set landing.off_centre='-8 m'"),
+                     0);
+    assert_has(f->err, "landing.off_centre: at -8 m a main wheel passes");
+    assert_int_equal(bolter(f, "check " REFERENCE " --set deck.cable.span='20 m'"
+                               " --set landing.off_centre='-7 m'"),
+                     0);
+    assert_string_equal(f->err, "");
+}
+
 /// Replaces the first line that begins with `key` by another.
 static char* with_line(char* text, const char* key, const char* line) {
     char* at = strstr(text, key);
@@ -455,6 +473,7 @@ int main(void) {
         TEST(check_accepts_the_reference_and_prints_stable_steps),
         TEST(a_mesh_too_fine_for_the_memory_of_a_landing_is_refused),
         TEST(a_step_above_the_stable_one_is_refused_with_the_step_that_would_do),
+        TEST(check_says_what_passes_beside_the_wire),
         TEST(check_reports_five_mistakes_with_their_places),
         TEST(a_file_that_is_not_there_is_exit_code_5),
         TEST(land_prints_the_promised_keys_and_nothing_else),

@@ -152,6 +152,42 @@ static void states_beyond_the_model_are_said_and_beyond_a_law_fail(void** state)
     end(&f);
 }
 
+/// A nose-high landing comes down hook first and sinks on with its wheels in the air: the tail
+/// meets the deck when its height in the glide is used up, soon after the hook.
+static void a_tail_that_comes_down_to_the_deck_is_said(void** state) {
+    (void)state;
+    const bt_model_params none = REFERENCE("landing.pitch=8 deg");
+    const bt_model_params low =
+        REFERENCE("landing.pitch=8 deg", "aircraft.tail.x=-8 m", "aircraft.tail.z=-2.35 m");
+    const bt_model_params high =
+        REFERENCE("landing.pitch=8 deg", "aircraft.tail.x=-8 m", "aircraft.tail.z=-1 m");
+    bt_landing_view view;
+    flight f = begin(&low);
+    bt_landing_observe(f.model, f.state, false, &view);
+    // heights from the centre of gravity: the shoe arc's centre, the tail
+    const bt_hook_params* hook = &low.aircraft.hook;
+    const double pitch = low.landing.pitch_rad, c = cos(pitch), s = sin(pitch);
+    const double shoe_x = hook->pivot_x_m - hook->length_m * cos(view.hook_angle_rad);
+    const double shoe_z = hook->pivot_z_m - hook->length_m * sin(view.hook_angle_rad);
+    const double tail_m = view.hook_shoe_m[2] + (-8 - shoe_x) * s + (-2.35 - shoe_z) * c;
+    const double expected_s = view.time_s + tail_m / low.landing.sink_speed_mps;
+    const bt_landing_result struck = fly_on(&f, f.state);
+    end(&f);
+    assert_true(bt_remarks_has(&struck.remarks, BT_REMARK_TAIL_CLEARANCE));
+    BT_ASSERT_NEAR(struck.remarks.time_s[BT_REMARK_TAIL_CLEARANCE], expected_s, 0, 5e-4);
+
+    f = begin(&none);
+    const bt_landing_result unseen = fly_on(&f, f.state);
+    end(&f);
+    f = begin(&high);
+    const bt_landing_result clear = fly_on(&f, f.state);
+    end(&f);
+    assert_int_equal(unseen.remarks.seen, 0);
+    assert_int_equal(clear.remarks.seen, 0);
+    // it is looked at, and pushes on nothing
+    assert_true(struck.state_hash == unseen.state_hash && clear.state_hash == unseen.state_hash);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stepping_from_outside_is_the_lander_s_run),
@@ -159,6 +195,7 @@ int main(void) {
         cmocka_unit_test(the_glide_is_held_until_the_first_touch),
         cmocka_unit_test(an_aircraft_that_comes_to_rest_has_stopped),
         cmocka_unit_test(states_beyond_the_model_are_said_and_beyond_a_law_fail),
+        cmocka_unit_test(a_tail_that_comes_down_to_the_deck_is_said),
         cmocka_unit_test(preparing_again_keeps_what_has_not_changed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
