@@ -68,6 +68,7 @@ static bt_status prepare_wires(bt_landing_model* m, const bt_model_params* p, bt
     bt_arena_reset(&m->arena, m->airframe_mark);
     bt_cable_def def;
     bt_cable_def_init(&def, &p->deck.cable, p->deck.gravity_mps2, m->segment_m);
+    def.level = m->kernel;
     if (bt_cable_memory(def.count, 1) > m->arena.size - m->arena.used)
         return refuse_mesh(def.count, diag);
     BT_TRY(bt_cable_model_init(&m->cable, &def, &m->arena, diag));
@@ -77,6 +78,11 @@ static bt_status prepare_wires(bt_landing_model* m, const bt_model_params* p, bt
     m->wire[0] = (bt_wire){.position_m = 0, .cable = &m->cable, .resting = &m->resting};
     m->has_cable = true;
     return BT_OK;
+}
+
+void bt_landing_model_use_kernel(bt_landing_model* model, bt_kernel_level level) {
+    model->kernel = level;
+    model->has_cable = false;
 }
 
 bt_status bt_landing_model_prepare(bt_landing_model* model, const bt_model_params* params,

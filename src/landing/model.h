@@ -24,6 +24,10 @@ BT_CHECKED bt_status bt_landing_model_create(bt_landing_model** model);
 void bt_landing_model_destroy(bt_landing_model* model);
 size_t bt_landing_model_memory(const bt_landing_model* model); ///< bytes held
 
+/// Which instruction-set level of the cable's kernel the next preparation takes; BT_KERNEL_BEST
+/// unless told. Levels differ in their bits, not in what they compute.
+void bt_landing_model_use_kernel(bt_landing_model* model, bt_kernel_level level);
+
 /// Builds what the parameters describe; they must have passed bt_group_check. Parts that are as at
 /// the last call stay: the airframe, and the cable with its equilibrium. States of the model that
 /// were created before are of no further use unless bt_landing_state_fits.

@@ -11,6 +11,7 @@ enum { BT_WIRE_MAX = 1 };
 struct bt_landing_model {
     bt_model_params params; ///< what the parts, where there are any, were built from
     bool has_airframe, has_cable;
+    bt_kernel_level kernel; ///< of the cables
     uint64_t built; ///< changes with every rebuilding of a part: states before it do not fit
     bt_arena arena;
     size_t airframe_mark; ///< of the arena: what follows belongs to the wires
