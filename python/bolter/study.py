@@ -198,8 +198,10 @@ class Study:
 
     @classmethod
     def example(cls, name: str = "reference", sets: Sequence[str] = ()) -> "Study":
-        """A study that is shipped with Bolter."""
-        return cls.open(lib.find_study(name), sets)
+        """A study that is shipped with Bolter; its directory is ``name``, here."""
+        study = cls.open(lib.find_study(name), sets)
+        study.directory = name
+        return study
 
     def close(self) -> None:
         """Releases the study; a second time does nothing."""

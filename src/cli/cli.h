@@ -25,6 +25,8 @@ typedef struct bt_command {
     size_t overlay_used;
     int set_file_count;
     const char* set_files[BT_SETS_MAX]; ///< files of --set @FILE
+    const char* example;                ///< --example; NULL when not given
+    char example_file[4096];            ///< the study that it names
     bool json, quiet;
     const char* output;                     ///< -o; NULL when not given
     const char* option[BT_OWN_OPTIONS_MAX]; ///< own options: argument, "" for a flag, or NULL

@@ -1,3 +1,4 @@
+#include "cli/example.h"
 #include "cli/output.h"
 #include "cli/overlay.h"
 
@@ -12,6 +13,11 @@ static const struct argp_option common_options[] = {
     {"set", 's', "PATH=VALUE", 0,
      "change one key of the study, for example --set landing.pitch='4 deg'; @FILE reads lines "
      "PATH: VALUE; may be repeated",
+     10},
+    {"example", 'e', "NAME", 0,
+     "a study that comes with the program, in the place of STUDY.yaml: reference, rigs/currey, "
+     "...; "
+     "its results go into a directory NAME here",
      10},
     {"output", 'o', "PATH", 0,
      "where results go, by suffix: FILE.h5 time histories, FILE.csv the table, FILE.html a page, "
@@ -49,6 +55,9 @@ static error_t parse_option(int key, char* argument, struct argp_state* state) {
             argp_error(state, "more than %d --set", BT_SETS_MAX);
         command->sets[command->set_count++] = argument;
         return 0;
+    case 'e':
+        command->example = argument;
+        return 0;
     case 'o':
         command->output = argument;
         return 0;
@@ -64,6 +73,8 @@ static error_t parse_option(int key, char* argument, struct argp_state* state) {
         command->words[command->word_count++] = argument;
         return 0;
     case ARGP_KEY_END:
+        if (command->example && !bt_example_take(command))
+            exit(bt_exit_code(BT_ERR_ARG));
         if (command->word_count < command->verb->least_words)
             refuse_too_few(state, command->verb);
         return 0;
@@ -159,6 +170,8 @@ bt_status bt_command_rigs(const bt_command* command, bt_study* study) {
         bt_study_destroy(study);
     else if (bt_output_kind(command->output) == BT_OUTPUT_DIRECTORY)
         snprintf(study->directory, sizeof study->directory, "%s", command->output);
+    else if (command->example)
+        snprintf(study->directory, sizeof study->directory, "%s", command->example);
     return status;
 }
 
