@@ -21,6 +21,7 @@ static const struct argp_option common_options[] = {
      10},
     {"output", 'o', "PATH", 0,
      "where results go, by suffix: FILE.h5 time histories, FILE.csv the table, FILE.html a page, "
+     "FILE.pvd for ParaView, "
      "else a directory "
      "(default: one named after the study)",
      10},

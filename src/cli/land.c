@@ -5,6 +5,7 @@
 #include "report/history.h"
 #include "report/landing_report.h"
 #include "report/page.h"
+#include "report/paraview.h"
 
 #include <stdio.h>
 
@@ -17,10 +18,16 @@ typedef struct recorder {
 static bt_status start(const bt_command* command, recorder* r, bt_diag* diag) {
     if (!command->output)
         return BT_OK;
-    if (bt_output_kind(command->output) != BT_OUTPUT_PAGE)
+    switch (bt_output_kind(command->output)) {
+    case BT_OUTPUT_PAGE:
+        return bt_page_available(diag)
+                   ? bt_playback_create(BT_PLAYBACK_ROWS_ALONE, BT_PLAYBACK_NODES, &r->playback)
+                   : BT_ERR_INPUT;
+    case BT_OUTPUT_PARAVIEW:
+        return bt_playback_create(BT_PARAVIEW_ROWS, BT_LANDING_SEGMENTS_MAX, &r->playback);
+    default:
         return bt_history_create(&r->history);
-    return bt_page_available(diag) ? bt_playback_create(BT_PLAYBACK_ROWS_ALONE, &r->playback)
-                                   : BT_ERR_INPUT;
+    }
 }
 
 static void observe(void* user, const bt_landing_view* view) {
@@ -40,6 +47,8 @@ static bt_status write(const bt_command* command, const bt_study* study, const r
     BT_TRY(bt_output_path(command, "landing.h5", path, diag));
     if (r->history)
         return bt_history_write(r->history, path, study, result, diag);
+    if (bt_output_kind(command->output) == BT_OUTPUT_PARAVIEW)
+        return bt_paraview_write(path, r->playback, &study->model, diag);
     const bt_page_subject subject = {study, command->words[0], bt_version_build(), NULL};
     return bt_page_landing(&subject, path, r->playback, result, diag);
 }
@@ -85,17 +94,18 @@ const bt_verb bt_verb_land = {
     .name = "land",
     .summary = "simulate one landing: outcome, bounces, peak loads",
     .arguments = "STUDY.yaml",
-    .text =
-        "Simulates the landing of the study's `landing:' and says whether the hook caught the "
-        "wire, how, by which margin, how the hook bounced, and the peak loads. Loads of the "
-        "hook on the deck are not calibrated; loads after a catch hold for 50 ms.\n\n"
-        "  bolter land study.yaml --set landing.distance='7 m'\n"
-        "  bolter land study.yaml -o landing.h5     time histories (HDF5, with units; .csv: "
-        "CSV)\n"
-        "  bolter land study.yaml -o landing.html   a page that plays it in three dimensions\n\n"
-        "The exit code is 4 when the computation diverged.",
+    .text = "Simulates the landing of the study's `landing:' and says whether the hook caught the "
+            "wire, how, by which margin, how the hook bounced, and the peak loads. Loads of the "
+            "hook on the deck are not calibrated; loads after a catch hold for 50 ms.\n\n"
+            "  bolter land study.yaml --set landing.distance='7 m'\n"
+            "  bolter land study.yaml -o landing.h5     time histories (HDF5, with units; .csv: "
+            "CSV)\n"
+            "  bolter land study.yaml -o landing.html   a page that plays it in three dimensions\n"
+            "  bolter land study.yaml -o landing.pvd    for ParaView\n\n"
+            "The exit code is 4 when the computation diverged.",
     .least_words = 1,
     .most_words = 1,
-    .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_TABLE | BT_OUTPUT_PAGE | BT_OUTPUT_DIRECTORY,
+    .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_TABLE | BT_OUTPUT_PAGE | BT_OUTPUT_PARAVIEW |
+               BT_OUTPUT_DIRECTORY,
     .run = run,
 };

@@ -15,6 +15,7 @@ static const struct {
     {".csv", "FILE.csv (table or histories)", BT_OUTPUT_TABLE},
     {".yaml", "FILE.yaml (the values found)", BT_OUTPUT_VALUES},
     {".html", "FILE.html (page for a browser)", BT_OUTPUT_PAGE},
+    {".pvd", "FILE.pvd (for ParaView)", BT_OUTPUT_PARAVIEW},
     {NULL, "a directory", BT_OUTPUT_DIRECTORY},
 };
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };

@@ -14,11 +14,12 @@ enum {
     BT_OUTPUT_TABLE = 2,     ///< FILE.csv
     BT_OUTPUT_VALUES = 4,    ///< FILE.yaml
     BT_OUTPUT_DIRECTORY = 8,
-    BT_OUTPUT_PAGE = 16, ///< FILE.html
+    BT_OUTPUT_PAGE = 16,     ///< FILE.html
+    BT_OUTPUT_PARAVIEW = 32, ///< FILE.pvd
 };
 
 /// The kind of what -o names: a directory that is there, or whose name ends in "/" or has no
-/// suffix, is a directory; .h5, .csv, .yaml and .html are files. 0: no -o, or none of these.
+/// suffix, is a directory; .h5, .csv, .yaml, .html and .pvd are files. 0: no -o, or none of these.
 int bt_output_kind(const char* output);
 
 /// Refuses what the verb cannot write (naming what it can), and a file that the command reads.

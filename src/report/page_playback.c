@@ -94,7 +94,7 @@ static bt_status record(bt_page* page, bt_lander* lander, const pick* chosen,
     bt_playback* playback = NULL;
     bt_landing_result result;
     *model = page->subject->study->model;
-    BT_TRY(bt_playback_create(BT_PLAYBACK_ROWS_AMONG, &playback));
+    BT_TRY(bt_playback_create(BT_PLAYBACK_ROWS_AMONG, BT_PLAYBACK_NODES, &playback));
     bt_status status = run(page, lander, model, chosen, playback, &result);
     const int64_t number = chosen->landing < 0 ? -1 : page->landings.run[chosen->landing];
     if (status == BT_OK)

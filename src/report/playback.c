@@ -1,13 +1,13 @@
 #include "report/playback.h"
 
 #include "report/packed.h"
-#include "report/playback_events.h"
 #include "report/playback_geometry.h"
+#include "report/playback_record.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { Q_SIZE = 7 * BT_BODY_COUNT };
+enum { Q_SIZE = BT_PLAYBACK_Q };
 
 #define AT(member) (offsetof(bt_landing_view, member) / sizeof(double))
 #define WHEEL(leg, axis) (7 * (BT_BODY_NOSE_WHEEL + (leg)) + (axis))
@@ -49,25 +49,12 @@ static const struct {
     {"wheel_right_y_m", IN_Q, WHEEL(BT_LEG_RIGHT, 1)},
 };
 
-/// Every step of the landing; what is written is chosen when it is over.
-struct bt_playback {
-    int rows_most;
-    size_t count, room;
-    double* time_s;
-    float* q;                               ///< [room * Q_SIZE]
-    float* cable;                           ///< [room * 3 * nodes] x y z
-    float* tension;                         ///< [room * nodes]
-    float* curve;                           ///< [room * BT_CURVE_COUNT]
-    int nodes, node[BT_PLAYBACK_NODES_MAX]; ///< segments that are drawn
-    double awake_s;                         ///< when the cable first moved; INFINITY: never
-    bool out_of_memory;
-};
-
-bt_status bt_playback_create(int rows_most, bt_playback** playback) {
+bt_status bt_playback_create(int rows_most, int nodes_most, bt_playback** playback) {
     *playback = calloc(1, sizeof **playback);
     if (!*playback)
         return BT_ERR_MEMORY;
     (*playback)->rows_most = rows_most;
+    (*playback)->nodes_most = nodes_most;
     (*playback)->awake_s = INFINITY;
     return BT_OK;
 }
@@ -116,11 +103,11 @@ static int choose_nodes(const bt_landing_view* view, double scale, int* node, in
 }
 
 static void start(bt_playback* p, const bt_landing_view* view) {
-    double scale = 1;
+    double scale = view->cable_count <= p->nodes_most ? 0 : 1;
     do {
-        p->nodes = choose_nodes(view, scale, p->node, BT_PLAYBACK_NODES_MAX);
+        p->nodes = choose_nodes(view, scale, p->node, p->nodes_most);
         scale *= 1.1;
-    } while (p->nodes > BT_PLAYBACK_NODES_MAX);
+    } while (p->nodes > p->nodes_most);
 }
 
 static bool resize(void** data, size_t size) {
@@ -251,6 +238,17 @@ static size_t choose_rows(const bt_playback* p, double scale, double meeting, si
     return count;
 }
 
+size_t bt_playback_choose_rows(const bt_playback* p, size_t* row) {
+    const double meeting = meeting_s(p);
+    double scale = 1;
+    size_t rows;
+    do {
+        rows = choose_rows(p, scale, meeting, row);
+        scale *= 1.05;
+    } while (rows > (size_t)p->rows_most && scale < 1e9);
+    return rows;
+}
+
 // --- JSON -------------------------------------------------------------------------------------
 
 /// What is being written: chosen rows of a record.
@@ -362,13 +360,7 @@ static bt_status put_geometry(bt_json* json, const bt_playback* p, const bt_mode
 
 static bt_status put_rows(bt_json* json, const bt_playback* p, size_t* row, double* time,
                           float* values) {
-    const double meeting = meeting_s(p);
-    writer w = {.json = json, .p = p, .row = row, .values = values};
-    double scale = 1;
-    do {
-        w.rows = choose_rows(p, scale, meeting, row);
-        scale *= 1.05;
-    } while (w.rows > (size_t)p->rows_most && scale < 1e9);
+    const writer w = {json, p, row, bt_playback_choose_rows(p, row), values};
     for (size_t i = 0; i < w.rows; ++i)
         time[i] = p->time_s[row[i]];
     bt_json_floats(json, "time", time, w.rows);
@@ -379,7 +371,7 @@ static bt_status put_rows(bt_json* json, const bt_playback* p, size_t* row, doub
 }
 
 static bt_status put_motion(bt_json* json, const bt_playback* p) {
-    const size_t widest = Q_SIZE > 3 * BT_PLAYBACK_NODES_MAX ? Q_SIZE : 3 * BT_PLAYBACK_NODES_MAX;
+    const size_t cable = 3 * (size_t)p->nodes, widest = Q_SIZE > cable ? Q_SIZE : cable;
     size_t* row = malloc((p->count + 1) * sizeof *row);
     double* time = malloc((p->count + 1) * sizeof *time);
     float* values = malloc((p->count + 1) * widest * sizeof *values);

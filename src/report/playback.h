@@ -9,13 +9,13 @@
 enum {
     BT_PLAYBACK_ROWS_ALONE = 560, ///< of a landing alone in its page: at most 0.6 MB
     BT_PLAYBACK_ROWS_AMONG = 220, ///< of one of ten
-    BT_PLAYBACK_NODES_MAX = 72,   ///< of cable
+    BT_PLAYBACK_NODES = 72,       ///< of cable, in the page
 };
 
 typedef struct bt_playback bt_playback;
 
-/// An empty record for at most this many rows. BT_ERR_MEMORY.
-BT_CHECKED bt_status bt_playback_create(int rows_most, bt_playback** playback);
+/// An empty record for at most this many rows and points of cable. BT_ERR_MEMORY.
+BT_CHECKED bt_status bt_playback_create(int rows_most, int nodes_most, bt_playback** playback);
 void bt_playback_destroy(bt_playback* playback); ///< accepts NULL
 
 /// The observer to hand to bt_lander_run, with the record as `user`.

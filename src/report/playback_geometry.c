@@ -33,6 +33,16 @@ int bt_hook_outline(const bt_profile* profile, double reach_m, double outline[BT
     return count;
 }
 
+bt_fuselage_sketch bt_fuselage_of(const bt_airframe* f) {
+    const double radius = fmax(0.5, 0.35 * -f->axle_m[BT_LEG_LEFT][2]);
+    return (bt_fuselage_sketch){
+        .nose_m = f->axle_m[BT_LEG_NOSE][0] + 2.5 - f->fuselage_m[0],
+        .tail_m = f->pivot_m[0] - 1.5 - f->fuselage_m[0],
+        .radius_m = radius,
+        .height_m = f->pivot_m[2] - f->fuselage_m[2] + radius,
+    };
+}
+
 // --- JSON -------------------------------------------------------------------------------------
 
 static void put_vector(bt_json* json, const char* key, double x, double y, double z) {
@@ -55,15 +65,15 @@ static void put_strut(bt_json* json, const bt_airframe* f, int leg) {
 }
 
 static void put_fuselage(bt_json* json, const bt_airframe* f) {
-    const double nose = f->axle_m[BT_LEG_NOSE][0] + 2.5, tail = f->pivot_m[0] - 1.5;
-    const double radius = fmax(0.5, 0.35 * -f->axle_m[BT_LEG_LEFT][2]);
+    const bt_fuselage_sketch s = bt_fuselage_of(f);
+    const double length = s.nose_m - s.tail_m;
     bt_json_begin_object(json, "fuselage");
-    bt_json_rounded(json, "radius_m", radius, 4);
-    bt_json_rounded(json, "length_m", fmax(nose - tail - 2 * radius, radius), 6);
-    bt_json_rounded(json, "middle_m", 0.5 * (nose + tail) - f->fuselage_m[0], 6);
-    bt_json_rounded(json, "height_m", radius - f->fuselage_m[2] + f->pivot_m[2], 6);
-    bt_json_rounded(json, "span_m", 0.8 * (nose - tail), 6);
-    bt_json_rounded(json, "chord_m", 0.2 * (nose - tail), 6);
+    bt_json_rounded(json, "radius_m", s.radius_m, 4);
+    bt_json_rounded(json, "length_m", fmax(length - 2 * s.radius_m, s.radius_m), 6);
+    bt_json_rounded(json, "middle_m", 0.5 * (s.nose_m + s.tail_m), 6);
+    bt_json_rounded(json, "height_m", s.height_m, 6);
+    bt_json_rounded(json, "span_m", 0.8 * length, 6);
+    bt_json_rounded(json, "chord_m", 0.2 * length, 6);
     bt_json_begin_array(json, "struts");
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
         put_strut(json, f, leg);

@@ -137,7 +137,7 @@ static void output_is_by_suffix_in_every_verb(void** state) {
     fixture* f = *state;
     assert_int_equal(bolter(f, "land " REFERENCE " -o %/l.vtp"), 2);
     assert_has(f->err, "FILE.h5 (time histories), FILE.csv (table or histories), FILE.html "
-                       "(page for a browser), a directory");
+                       "(page for a browser), FILE.pvd (for ParaView), a directory");
     assert_false(exists(f, "l.vtp"));
     assert_int_equal(bolter(f, "rig nose-drop " REFERENCE " -o %/out.pvd"), 2);
     assert_false(exists(f, "out.pvd"));
