@@ -1,194 +1,67 @@
+#include "pipeline/check.h"
 #include "campaign/design.h"
-#include "campaign/executor.h"
 #include "cli/cli.h"
 #include "cli/output.h"
-#include "landing/stable_step.h"
 #include "report/rig_report.h"
 
-#include "base/units.h"
-
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
-/// Settings at which the label-noise study (docs/label-noise.md) has shown that outcomes do not
-/// hang on the computation: the defaults of these keys. Coarser ones have not been shown to be
-/// good.
-static void warn_of_settings(const bt_model_params* model, bt_diag* diag) {
-    static const struct {
-        const char* path;
-        bool at_least; ///< the default is the least that was shown; otherwise the greatest
-    } shown[] = {
-        {"landing.solver.airframe_step", false},
-        {"landing.solver.contact_step", false},
-        {"landing.solver.cable_courant", false},
-        {"landing.solver.tyre_strips", true},
-        {"deck.cable.mesh.fine_length", false},
-        {"deck.cable.mesh.medium_length", false},
-        {"deck.cable.mesh.coarse_length", false},
-        {"deck.cable.mesh.fine_half_width", true},
-        {"deck.cable.mesh.medium_half_width", true},
-        {"aircraft.hook.cable_contact.slip_speed", true},
-    };
-    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; ++i) {
-        size_t offset;
-        const bt_field* field = bt_group_find(&bt_model_group, shown[i].path, &offset);
-        const double value = bt_field_get(field, model, offset);
-        if (shown[i].at_least ? value >= field->fallback : value <= field->fallback)
-            continue;
-        bt_diag_add(diag, BT_WARNING, BT_NOWHERE,
-                    "%s: %.4g %s is %s than what the label-noise study has shown to be good, %.4g; "
-                    "`bolter noise` shows it for this study",
-                    shown[i].path, value, field->unit[0] ? bt_unit_text(field->unit) : "",
-                    shown[i].at_least ? "less" : "more", field->fallback);
+static const bt_column columns[] = {
+    {.name = "element", .head = "element", .unit = ""},
+    {.name = "setting", .head = NULL, .unit = ""},
+    {.name = "stable_s", .head = "stable step", .unit = "us", .scale = 1e6, .decimals = 1},
+    {.name = "used_s", .head = "step used", .unit = "us", .scale = 1e6, .decimals = 1},
+};
+
+static bt_report_table* step_table(const bt_check_result* result) {
+    bt_report_table* table = bt_report_table_create(NULL, columns, 4);
+    for (int i = 0; i < result->step_count; ++i) {
+        const bt_stable_step* step = &result->steps[i];
+        bt_report_table_row(table);
+        bt_report_table_text(table, step->element);
+        bt_report_table_text(table, step->setting);
+        bt_report_table_number(table, step->stable_s);
+        bt_report_table_number(table, step->used_s);
     }
+    return table;
 }
 
-/// What is allowed but seldom meant: each line is a warning on stderr.
-static void warn(const bt_study* study, bt_diag* diag) {
-    warn_of_settings(&study->model, diag);
-    for (int i = 0; i < study->input_count; ++i) {
-        const bt_input* input = &study->inputs[i];
-        if (study->campaign.design == BT_DESIGN_MONTE_CARLO || !input->random)
-            continue;
-        if (!input->bounded) {
-            bt_diag_add(diag, BT_WARNING, input->where,
-                        "%s scatters but has no range in campaign.bounds: the campaign keeps it at "
-                        "its value, so the surrogate cannot know what it does",
-                        input->path);
-            continue;
-        }
-        const bt_distribution* d = &input->distribution;
-        const double outside =
-            bt_distribution_cdf(d, input->lower) + 1 - bt_distribution_cdf(d, input->upper);
-        if (outside > 0.05)
-            bt_diag_add(diag, BT_WARNING, input->where,
-                        "%s: %.0f %% of its distribution lies outside its range in campaign.bounds",
-                        input->path, 100 * outside);
-    }
-}
-
-/// The ends of what an input may be: of its range in the design, or 99.8 % of its distribution.
-static void ends_of(const bt_study* study, const bt_input* input, double ends[2]) {
-    const bool drawn = study->campaign.design == BT_DESIGN_MONTE_CARLO || !input->bounded;
-    ends[0] = drawn ? bt_distribution_quantile(&input->distribution, 0.001) : input->lower;
-    ends[1] = drawn ? bt_distribution_quantile(&input->distribution, 0.999) : input->upper;
-}
-
-/// Tries whether a landing can begin as the study stands, and with each input at either end, the
-/// others as they stand. The former is an error, the latter a warning: such landings will fail.
-static bt_status try_ends(const bt_study* study, bt_diag* diag) {
-    char why[512], value[64];
-    bt_lander* lander = NULL;
-    BT_TRY(bt_lander_create(&lander));
-    bt_status status = bt_landing_possible(lander, &study->model, why, sizeof why);
-    if (status == BT_ERR_INPUT)
-        bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "%s", why);
-    for (int i = 0; i < 2 * study->input_count && status == BT_OK; ++i) {
-        const bt_input* input = &study->inputs[i / 2];
-        bt_model_params model = study->model;
-        double ends[2];
-        if (!input->bounded && !input->random)
-            continue;
-        ends_of(study, input, ends);
-        bt_field_set(input->field, &model, input->offset, ends[i % 2]);
-        const bt_status end = bt_landing_possible(lander, &model, why, sizeof why);
-        bt_unit_print(ends[i % 2], input->field->unit[0] ? input->field->unit : "1", value,
-                      sizeof value);
-        if (end == BT_ERR_INPUT)
-            bt_diag_add(diag, BT_WARNING, input->where,
-                        "%s: at %s, where its values end, no landing can begin, and such runs "
-                        "fail: %s",
-                        input->path, value, why);
-        else
-            status = end;
-    }
-    bt_lander_destroy(lander);
-    return status;
-}
-
-/// The part of the aircraft that reaches farthest from the centreline where it comes to the wire:
-/// the outer edge of a main wheel, or the hook's head, swung out by a yawed aircraft. Level, struts
-/// extended.
-static double reach_from_centreline(const bt_model_params* model, double off_centre_m,
-                                    const char** part) {
-    const bt_gear_params* gear = &model->aircraft.main_gear;
-    const bt_hook_params* hook = &model->aircraft.hook;
-    const double s = sin(model->landing.yaw_rad), c = cos(model->landing.yaw_rad);
-    const double half_track_m =
-        gear->half_track_m + 0.5 * gear->tyre.width_m * (double)gear->tyre.tyres;
-    const double wheel_m = fabs(off_centre_m + s * gear->station_m) + c * half_track_m;
-    const double shoe_x_m = hook->pivot_x_m - hook->length_m * cos(hook->down_stop_rad);
-    const double hook_m = fabs(off_centre_m + s * shoe_x_m) + 0.5 * hook->profile.width_m;
-    const double half_span_m = 0.5 * model->deck.cable.span_m;
-    *part = hook_m > half_span_m ? "the hook" : "a main wheel";
-    return hook_m > half_span_m ? hook_m : wheel_m;
-}
-
-/// A landing may pass beside the wire, and does (mode passed_beside); it is seldom meant.
-static void warn_beside(const bt_study* study, bt_where where, double off_centre_m, bt_diag* diag) {
-    const char* part;
-    const double reach_m = reach_from_centreline(&study->model, off_centre_m, &part);
-    const double beyond_m = reach_m - 0.5 * study->model.deck.cable.span_m;
-    if (beyond_m > 0)
-        bt_diag_add(diag, BT_WARNING, where,
-                    "landing.off_centre: at %.4g m %s passes %.3g m beyond the end of the wire "
-                    "(deck.cable.span %.4g m); at most %.4g m off the centre, or a span of %.4g m, "
-                    "would do",
-                    off_centre_m, part, beyond_m, study->model.deck.cable.span_m,
-                    fmax(0, fabs(off_centre_m) - beyond_m), 2 * reach_m);
-}
-
-/// As the study stands, or where the values of a scattering landing.off_centre end.
-static void warn_of_span(const bt_study* study, bt_diag* diag) {
-    double ends[2] = {study->model.landing.off_centre_m, study->model.landing.off_centre_m};
-    bt_where where = BT_NOWHERE;
-    for (int i = 0; i < study->input_count; ++i)
-        if (strcmp(study->inputs[i].path, "landing.off_centre") == 0) {
-            ends_of(study, &study->inputs[i], ends);
-            where = study->inputs[i].where;
-        }
-    warn_beside(study, where, ends[0], diag);
-    if (ends[1] != ends[0])
-        warn_beside(study, where, ends[1], diag);
-}
-
-static void print_text(const bt_study* study, int64_t runs, const bt_stable_step* steps,
-                       int step_count) {
+static bt_status print_text(const bt_study* study, int64_t runs, const bt_report_table* steps) {
     const bt_axes axes = bt_design_axes(study);
+    char count[32], samples[32], checks[32];
     printf("%s\n", study->title);
-    printf("campaign    %lld landings, design %s, over", (long long)runs,
+    printf("campaign    %s landings, design %s, over", bt_count_text(runs, count),
            bt_design_names[study->campaign.design]);
     for (int i = 0; i < axes.count; ++i)
         printf("%s %s", i ? "," : "", study->inputs[axes.input[i]].path);
-    printf("\nreliability %d conditions, %lld samples each, checked by %lld landings each\n",
-           study->condition_count, (long long)study->reliability.samples,
-           (long long)study->reliability.truth_runs);
+    printf("\nreliability %d conditions, %s samples each, checked by %s high-fidelity runs each\n",
+           study->condition_count, bt_count_text(study->reliability.samples, samples),
+           bt_count_text(study->reliability.truth_runs, checks));
     printf("results     %s\n\n", study->directory);
-    printf("%-28s %12s %12s\n", "element", "stable step", "step used");
-    for (int i = 0; i < step_count; ++i)
-        printf("%-28s %9.1f us %9.1f us\n", steps[i].element, 1e6 * steps[i].stable_s,
-               1e6 * steps[i].used_s);
+    return bt_report_table_print(steps, stdout);
 }
 
-static void print_json(const bt_study* study, int64_t runs, const bt_stable_step* steps,
-                       int step_count) {
+static bt_status print_json(const bt_study* study, int64_t runs, const bt_report_table* steps) {
     bt_json json = {.out = stdout};
     bt_json_begin_object(&json, NULL);
     bt_json_string(&json, "title", study->title);
     bt_json_integer(&json, "runs", runs);
     bt_json_string(&json, "directory", study->directory);
-    bt_json_begin_array(&json, "stable_steps");
-    for (int i = 0; i < step_count; ++i) {
-        bt_json_begin_object(&json, NULL);
-        bt_json_string(&json, "element", steps[i].element);
-        bt_json_string(&json, "setting", steps[i].setting);
-        bt_json_number(&json, "stable_s", steps[i].stable_s);
-        bt_json_number(&json, "used_s", steps[i].used_s);
-        bt_json_end_object(&json);
-    }
-    bt_json_end_array(&json);
+    BT_TRY(bt_report_table_json(steps, &json, "stable_steps"));
     bt_json_end_object(&json);
+    return BT_OK;
+}
+
+/// The table of steps to -o FILE.csv, and with the rest to the user.
+static bt_status show(const bt_command* command, const bt_study* study,
+                      const bt_check_result* result, bt_diag* diag) {
+    bt_report_table* table = step_table(result);
+    bt_status status = bt_output_table(command, table, diag);
+    if (status == BT_OK)
+        status = command->json ? print_json(study, result->runs, table)
+                               : print_text(study, result->runs, table);
+    bt_report_table_destroy(table);
+    return status;
 }
 
 /// Reads every measured curve that the study names.
@@ -229,30 +102,17 @@ static void print_rigs(const bt_command* command, const bt_study* study) {
 
 static bt_status check(const bt_command* command, const bt_study* study) {
     bt_diag diag = bt_stderr_diag();
-    bt_design* design = NULL;
+    bt_check_result result;
     BT_TRY(check_curves(study, &diag));
     if (study->rigs_only) {
         print_rigs(command, study);
         return BT_OK;
     }
-    BT_TRY(bt_design_create(study, &design, &diag));
-    const int64_t runs = bt_design_count(design);
-    bt_design_destroy(design);
-
-    bt_stable_step steps[BT_STABLE_STEP_MAX];
-    int step_count = 0;
-    BT_TRY(bt_stable_steps(&study->model, steps, &step_count, &diag));
-    warn(study, &diag);
-    warn_of_span(study, &diag);
-    BT_TRY(try_ends(study, &diag));
-    if (command->json)
-        print_json(study, runs, steps, step_count);
-    else
-        print_text(study, runs, steps, step_count);
-    return BT_OK;
+    BT_TRY(bt_stage_check(study, &result, &diag));
+    return show(command, study, &result, &diag);
 }
 
-static bt_status run(const bt_command* command) {
+static bt_status run_check(const bt_command* command) {
     bt_study study;
     BT_TRY(bt_command_rigs(command, &study));
     const bt_status status = check(command, &study);
@@ -264,14 +124,14 @@ const bt_verb bt_verb_check = {
     .name = "check",
     .summary = "check a study file: every mistake with its place",
     .arguments = "STUDY.yaml",
-    .text =
-        "Reads the study and the files it names, converts every value, and reports all "
-        "mistakes at once, each as file:line:column: error: key: what is wrong and what would "
-        "be right. If there are none it prints what the study will do and the largest stable "
-        "time step of each element beside the step used. Nothing is run or written. A file that "
-        "describes rigs only (see `bolter rig --help') is checked as such.",
+    .text = "Reads the study and the files it names, converts every value, and reports all "
+            "mistakes at once, each as file:line:column: error: key: what is wrong and what would "
+            "be right. If there are none it prints what the study will do and the largest stable "
+            "time step of each element beside the step used. Nothing is run; -o FILE.csv takes the "
+            "table of steps. A file that "
+            "describes rigs only (see `bolter rig --help') is checked as such.",
     .least_words = 1,
     .most_words = 1,
-    .outputs = BT_OUTPUT_DIRECTORY,
-    .run = run,
+    .outputs = BT_OUTPUT_TABLE | BT_OUTPUT_DIRECTORY,
+    .run = run_check,
 };

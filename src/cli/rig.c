@@ -26,8 +26,11 @@ static bt_status write_files(const bt_command* command, const bt_study* study,
                              const bt_rig_record* record, const bt_rig_result* result,
                              const bt_rig_curves* curves, bt_diag* diag) {
     char folder[BT_FILE_PATH_MAX], path[BT_FILE_PATH_MAX], name[64];
-    if (bt_output_kind(command->output) == BT_OUTPUT_HISTORIES)
+    const int kind = bt_output_kind(command->output);
+    if (kind == BT_OUTPUT_HISTORIES)
         return bt_rig_record_write(record, command->output, study, result, diag);
+    if (kind == BT_OUTPUT_TABLE)
+        return BT_OK; // written when it was shown
     BT_TRY(bt_file_path(folder, study->directory, "figures"));
     BT_TRY(bt_directory_make(folder, diag));
     if (command->output) {
@@ -41,24 +44,34 @@ static bt_status write_files(const bt_command* command, const bt_study* study,
     return BT_OK;
 }
 
-static void print(const bt_command* command, const bt_study* study, const bt_rig_record* record,
-                  const bt_rig_result* result, const bt_rig_curves* curves) {
-    const double tolerance = bt_rig_point_tolerance(record->kind, &study->rigs);
-    if (command->json) {
-        bt_json json = {.out = stdout};
-        bt_json_begin_object(&json, NULL);
-        bt_json_string(&json, "rig", bt_rig_keys[record->kind]);
-        bt_json_string(&json, "title", study->title);
-        bt_rig_write_json(&json, result, record, curves, tolerance);
-        bt_json_end_object(&json);
-    } else {
-        printf("%s: %s\n", bt_rig_keys[record->kind], study->title);
-        bt_rig_print(stdout, result, record, curves, tolerance);
-    }
+static void write_json(const bt_study* study, const bt_rig_record* record,
+                       const bt_rig_result* result, const bt_rig_curves* curves, double tolerance) {
+    bt_json json = {.out = stdout};
+    bt_json_begin_object(&json, NULL);
+    bt_json_string(&json, "rig", bt_rig_keys[record->kind]);
+    bt_json_string(&json, "title", study->title);
+    bt_rig_write_json(&json, result, record, curves, tolerance);
+    bt_json_end_object(&json);
 }
 
-static bt_status run_rig(const bt_command* command, const bt_study* study, bt_rig_kind kind,
-                         const bt_rig_curves* curves) {
+/// The table to -o FILE.csv, and to the user.
+static bt_status show(const bt_command* command, const bt_study* study, const bt_rig_record* record,
+                      const bt_rig_result* result, const bt_rig_curves* curves, bt_diag* diag) {
+    const double tolerance = bt_rig_point_tolerance(record->kind, &study->rigs);
+    bt_report_table* table = bt_rig_table(result, record, curves, tolerance);
+    bt_status status = bt_output_table(command, table, diag);
+    if (status == BT_OK && command->json)
+        write_json(study, record, result, curves, tolerance);
+    else if (status == BT_OK) {
+        printf("%s: %s\n", bt_rig_keys[record->kind], study->title);
+        status = bt_report_table_print(table, stdout);
+    }
+    bt_report_table_destroy(table);
+    return status;
+}
+
+static bt_status run_test(const bt_command* command, const bt_study* study, bt_rig_kind kind,
+                          const bt_rig_curves* curves) {
     bt_diag diag = bt_stderr_diag();
     bt_rig_record record;
     bt_rig_result result;
@@ -66,8 +79,9 @@ static bt_status run_rig(const bt_command* command, const bt_study* study, bt_ri
     bt_status status = bt_rig_run(kind, &study->model.aircraft, &study->rigs, &result,
                                   bt_rig_record_observe, &record, &diag);
     if (status == BT_OK) {
-        print(command, study, &record, &result, curves);
-        status = write_files(command, study, &record, &result, curves, &diag);
+        status = show(command, study, &record, &result, curves, &diag);
+        if (status == BT_OK)
+            status = write_files(command, study, &record, &result, curves, &diag);
     } else if (status == BT_ERR_NUMERIC)
         status = BT_ERR_FAILED_RUNS;
     bt_rig_record_destroy(&record);
@@ -83,12 +97,12 @@ static bt_status test(const bt_command* command, const bt_study* study, bt_rig_k
         return BT_ERR_INPUT;
     }
     BT_TRY(bt_rig_curves_read(study, kind, &curves, &diag));
-    const bt_status status = run_rig(command, study, kind, &curves);
+    const bt_status status = run_test(command, study, kind, &curves);
     bt_rig_curves_destroy(&curves);
     return status;
 }
 
-static bt_status run(const bt_command* typed) {
+static bt_status run_rig(const bt_command* typed) {
     bt_rig_kind kind = BT_RIG_COUNT;
     const bool named = find_kind(typed->words[0], &kind);
     if (!named && typed->word_count == 2)
@@ -125,12 +139,13 @@ const bt_verb bt_verb_rig = {
         "  bolter rig nose-drop study.yaml --set rigs.nose_drop.sink_speed='3 m/s'\n"
         "  bolter rig nose-static studies/rigs/currey.yaml    load over stroke\n"
         "  bolter rig main-drop study.yaml -o drop.h5     time histories, no figures\n"
+        "  bolter rig main-drop study.yaml -o drop.csv    the table of metrics, no figures\n"
         "  bolter rig main-drop study.yaml -o results     histories and figures\n\n"
         "A file that holds `rigs:' and, under `aircraft:', only the leg or hook to be tested will "
         "do. The exit code is 4 when the computation diverged; a metric that misses its reference "
         "is marked, and is no error.",
     .least_words = 1,
     .most_words = 2,
-    .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_DIRECTORY,
-    .run = run,
+    .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_TABLE | BT_OUTPUT_DIRECTORY,
+    .run = run_rig,
 };

@@ -68,8 +68,8 @@ static void refine(const bt_noise_variant* variant, bt_model_params* model) {
     }
 }
 
-static bt_status run(bt_study* study, int64_t count, int threads, const atomic_int* stop,
-                     bt_noise_landing* landings, bt_diag* diag) {
+static bt_status run_landings(bt_study* study, int64_t count, int threads, const atomic_int* stop,
+                              bt_noise_landing* landings, bt_diag* diag) {
     work w = {.count = count, .landings = landings};
     BT_TRY(bt_design_create(study, &w.design, diag));
     const bt_executor executor = {.model = &study->model,
@@ -96,7 +96,7 @@ bt_status bt_noise_run(const bt_study* given, const bt_noise_variant* variant, i
     study->campaign.samples = count;
     if (variant)
         refine(variant, &study->model);
-    const bt_status status = run(study, count, threads, stop, landings, diag);
+    const bt_status status = run_landings(study, count, threads, stop, landings, diag);
     free(study);
     return status;
 }
@@ -165,4 +165,28 @@ bt_status bt_noise_compare(const bt_noise_landing* first, const bt_noise_landing
     free(moved);
     *difference = d;
     return BT_OK;
+}
+
+static bt_status run_variant(const bt_study* study, const bt_noise_stage* stage,
+                             const bt_noise_variant* variant, const bt_noise_landing* base,
+                             bt_noise_landing* landings, bt_diag* diag) {
+    bt_noise_difference difference;
+    BT_TRY(bt_noise_run(study, variant, stage->count, stage->threads, stage->stop, landings, diag));
+    BT_TRY(bt_noise_check_failed(study, landings, stage->count, diag));
+    BT_TRY(bt_noise_compare(base, landings, stage->count, &difference));
+    return stage->sink(stage->user, variant, base, landings, &difference);
+}
+
+bt_status bt_stage_noise(const bt_study* study, const bt_noise_stage* stage, bt_diag* diag) {
+    bt_noise_landing* base = calloc((size_t)stage->count, sizeof *base);
+    bt_noise_landing* other = calloc((size_t)stage->count, sizeof *other);
+    bt_status status = base && other ? BT_OK : BT_ERR_MEMORY;
+    if (status == BT_OK)
+        status = run_variant(study, stage, NULL, base, base, diag);
+    for (int i = 0; bt_noise_variants[i].name && status == BT_OK; ++i)
+        if (!stage->wanted || stage->wanted[i])
+            status = run_variant(study, stage, &bt_noise_variants[i], base, other, diag);
+    free(other);
+    free(base);
+    return status;
 }

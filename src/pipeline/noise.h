@@ -67,4 +67,23 @@ typedef struct bt_noise_difference {
 BT_CHECKED bt_status bt_noise_compare(const bt_noise_landing* first, const bt_noise_landing* second,
                                       int64_t count, bt_noise_difference* difference);
 
+/// What a label-noise study runs, and who is told of it.
+typedef struct bt_noise_stage {
+    int64_t count;          ///< landings per computation
+    int threads;            ///< 0: one per core
+    const atomic_int* stop; ///< may be NULL; see bt_executor
+    const bool* wanted;     ///< one flag per row of bt_noise_variants; NULL: all of them
+    /// Told of each computation: the study as it is first (variant NULL), then the variants.
+    bt_status (*sink)(void* user, const bt_noise_variant* variant, const bt_noise_landing* base,
+                      const bt_noise_landing* landings, const bt_noise_difference* difference);
+    void* user;
+} bt_noise_stage;
+
+/// The label-noise study: the same landings as the study sets them and with each variant.
+///
+/// @return BT_OK; BT_ERR_FAILED_RUNS (more than campaign.max_failed, in any computation); what
+///         bt_noise_run and the sink return
+BT_CHECKED bt_status bt_stage_noise(const bt_study* study, const bt_noise_stage* stage,
+                                    bt_diag* diag);
+
 #endif

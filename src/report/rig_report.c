@@ -80,6 +80,17 @@ void bt_rig_curve_error(const bt_rig_record* record, const bt_measured* measured
 
 // --- table ------------------------------------------------------------------------------------
 
+static const bt_column columns[] = {
+    {.name = "metric", .head = "metric", .unit = ""},
+    {.name = "value", .head = "value", .unit = ""},
+    {.name = "unit", .head = "unit", .unit = ""},
+    {.name = "reference", .head = "reference", .unit = ""},
+    {.name = "error_percent", .head = "error", .unit = "%", .decimals = 2},
+    {.name = "tolerance_percent", .head = "tolerance", .unit = "%", .decimals = 1},
+    {.name = "accepted", .head = "accepted", .unit = "", .flag = true},
+};
+enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
+
 /// Five digits, and no exponent where none is needed.
 static void put_value(double value, char* text, size_t size) {
     if (fabs(value) >= 1e4 && fabs(value) < 1e9)
@@ -88,19 +99,25 @@ static void put_value(double value, char* text, size_t size) {
         bt_text_print_rounded(value, 5, text, size);
 }
 
-static void print_metric(FILE* out, const bt_metric* m) {
-    char value[40] = "none", reference[40];
-    const char* unit = isfinite(m->value) && strcmp(m->unit, "1") != 0 ? m->unit : "";
-    if (isfinite(m->value))
-        put_value(m->value, value, sizeof value);
-    fprintf(out, "%-24s %10s", m->name, value);
-    if (isfinite(m->reference)) {
-        put_value(m->reference, reference, sizeof reference);
-        fprintf(out, " %-4s %10s %8.2f %% %8.1f %%  %s", unit, reference, m->error_percent,
-                100 * m->tolerance, m->accepted ? "yes" : "NO");
-    } else if (*unit)
-        fprintf(out, " %s", unit);
-    fputc('\n', out);
+/// A value, or what is said where there is none.
+static void add_value(bt_report_table* table, double value, const char* otherwise) {
+    char text[40];
+    put_value(value, text, sizeof text);
+    bt_report_table_said(table, value, isfinite(value) ? text : otherwise);
+}
+
+static void add_metric(bt_report_table* table, const bt_metric* m, const char* without_value) {
+    bt_report_table_row(table);
+    bt_report_table_text(table, m->name);
+    add_value(table, m->value, without_value);
+    bt_report_table_text(table, strcmp(m->unit, "1") == 0 ? "" : m->unit);
+    add_value(table, m->reference, "-");
+    bt_report_table_number(table, m->error_percent);
+    bt_report_table_number(table, isfinite(m->reference) ? 100 * m->tolerance : NAN);
+    if (isfinite(m->error_percent))
+        bt_report_table_flag_said(table, m->accepted, m->accepted ? "yes" : "NO");
+    else
+        bt_report_table_empty(table);
 }
 
 double bt_rig_point_tolerance(bt_rig_kind kind, const bt_rigs_params* rigs) {
@@ -124,8 +141,8 @@ static bt_metric point_of(const bt_rig_record* record, const bt_measured* m, int
     return p;
 }
 
-static void print_points(FILE* out, const bt_rig_record* record, const bt_measured* m,
-                         double tolerance) {
+static void add_points(bt_report_table* table, const bt_rig_record* record, const bt_measured* m,
+                       double tolerance) {
     int good = 0, judged = 0;
     double worst = 0;
     for (int i = 0; i < m->count; ++i) {
@@ -134,41 +151,42 @@ static void print_points(FILE* out, const bt_rig_record* record, const bt_measur
         put_value(m->x[i], x, sizeof x);
         snprintf(name, sizeof name, "  at %.30s %.20s", record->names[m->x_column], x);
         p.name = name;
-        if (!isfinite(p.error_percent)) {
-            fprintf(out, "%-24s %s\n", name,
-                    isfinite(p.value) ? "measured 0, drawn only" : "beyond the run, drawn only");
+        add_metric(table, &p, "beyond the run");
+        if (!isfinite(p.error_percent))
             continue;
-        }
-        print_metric(out, &p);
         ++judged;
         good += p.accepted;
         worst = fmax(worst, fabs(p.error_percent));
     }
-    fprintf(out, "%d of %d points within %g %%, largest error %.2f %%\n", good, judged,
-            100 * tolerance, worst);
+    bt_report_table_remark(table, "%d of %d points within %g %%, largest error %.2f %%", good,
+                           judged, 100 * tolerance, worst);
 }
 
-void bt_rig_print(FILE* out, const bt_rig_result* result, const bt_rig_record* record,
-                  const bt_rig_curves* curves, double tolerance) {
-    fprintf(out, "%-24s %10s %-4s %10s %10s %10s  %s\n", "metric", "value", "unit", "reference",
-            "error", "tolerance", "accepted");
-    for (int i = 0; i < result->metric_count; ++i)
-        print_metric(out, &result->metrics[i]);
-    for (int i = 0; i < result->remark_count; ++i)
-        fprintf(out, "remark: %s at %.4g s\n", result->remarks[i].what, result->remarks[i].time_s);
-    for (int i = 0; i < curves->count; ++i) {
-        const bt_measured* m = curves->measured[i];
-        double rms, share;
-        bt_rig_curve_error(record, m, &rms, &share);
-        fprintf(out, "%s: ", m->file);
-        if (isfinite(rms))
-            fprintf(out, "rms difference %.4g in %s, %.1f %% of the largest measured\n", rms,
-                    record->names[m->y_column], 100 * share);
-        else
-            fprintf(out, "%s over %s, drawn only\n", m->y_name, m->x_name);
-        if (tolerance > 0 && isfinite(rms))
-            print_points(out, record, m, tolerance);
+static void add_curve(bt_report_table* table, const bt_rig_record* record, const bt_measured* m,
+                      double tolerance) {
+    double rms, share;
+    bt_rig_curve_error(record, m, &rms, &share);
+    if (!isfinite(rms)) {
+        bt_report_table_remark(table, "%s: %s over %s, drawn only", m->file, m->y_name, m->x_name);
+        return;
     }
+    bt_report_table_remark(table, "%s: rms difference %.4g in %s, %.1f %% of the largest measured",
+                           m->file, rms, record->names[m->y_column], 100 * share);
+    if (tolerance > 0)
+        add_points(table, record, m, tolerance);
+}
+
+bt_report_table* bt_rig_table(const bt_rig_result* result, const bt_rig_record* record,
+                              const bt_rig_curves* curves, double tolerance) {
+    bt_report_table* table = bt_report_table_create(NULL, columns, COLUMN_COUNT);
+    for (int i = 0; i < result->metric_count; ++i)
+        add_metric(table, &result->metrics[i], "none");
+    for (int i = 0; i < result->remark_count; ++i)
+        bt_report_table_remark(table, "remark: %s at %.4g s", result->remarks[i].what,
+                               result->remarks[i].time_s);
+    for (int i = 0; i < curves->count; ++i)
+        add_curve(table, record, curves->measured[i], tolerance);
+    return table;
 }
 
 static void write_metric(bt_json* json, const bt_metric* m) {

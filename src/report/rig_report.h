@@ -4,6 +4,7 @@
 
 #include "report/json.h"
 #include "report/rig_record.h"
+#include "report/table.h"
 #include "study/measured.h"
 
 /// The measured curves of one rig, bound to the columns of its record.
@@ -26,10 +27,11 @@ void bt_rig_curve_error(const bt_rig_record* record, const bt_measured* measured
                         double* share);
 
 /// As the paper's Tables 1-3: metric, value, unit, reference, error, what is accepted. A static
-/// rig's measured curves follow point by point in the same columns.
+/// rig's measured curves follow point by point in the same columns; remarks below. To be destroyed
+/// by the caller; NULL when out of memory (see report/table.h).
 /// @param tolerance  error that is accepted of each point of a static rig's curves, as a share
-void bt_rig_print(FILE* out, const bt_rig_result* result, const bt_rig_record* record,
-                  const bt_rig_curves* curves, double tolerance);
+bt_report_table* bt_rig_table(const bt_rig_result* result, const bt_rig_record* record,
+                              const bt_rig_curves* curves, double tolerance);
 
 /// Members of the present object: `metrics` by name, `curves` (a static rig's with their `points`),
 /// `steps`, `end_time_s`.

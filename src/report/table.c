@@ -85,7 +85,7 @@ void bt_report_table_empty(bt_report_table* table) {
 }
 
 void bt_report_table_text(bt_report_table* table, const char* text) {
-    add(table, &(cell){.kind = CELL_TEXT}, text);
+    add(table, &(cell){.kind = text ? CELL_TEXT : CELL_EMPTY}, text);
 }
 
 void bt_report_table_number(bt_report_table* table, double value) {
@@ -107,6 +107,10 @@ void bt_report_table_interval(bt_report_table* table, double value, const bt_int
 
 void bt_report_table_said(bt_report_table* table, double value, const char* text) {
     add(table, &(cell){.kind = isfinite(value) ? CELL_NUMBER : CELL_EMPTY, .value = value}, text);
+}
+
+void bt_report_table_flag_said(bt_report_table* table, bool value, const char* text) {
+    add(table, &(cell){.kind = CELL_FLAG, .count = value}, text);
 }
 
 void bt_report_table_remark(bt_report_table* table, const char* format, ...) {

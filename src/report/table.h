@@ -42,6 +42,8 @@ void bt_report_table_empty(bt_report_table* table);
 
 /// As a number, but people read the text in its place ("refused"); NAN for no number.
 void bt_report_table_said(bt_report_table* table, double value, const char* text);
+/// As a flag, but people read the text in the place of "yes" or "no".
+void bt_report_table_flag_said(bt_report_table* table, bool value, const char* text);
 
 /// A line below the table, for people only.
 void bt_report_table_remark(bt_report_table* table, const char* format, ...)

@@ -192,10 +192,10 @@ static void a_file_of_rigs_says_what_it_is(void** state) {
     assert_has(f->err, "STUDY.yaml expected");
 }
 
-static void a_verb_that_only_prints_takes_no_o(void** state) {
+static void an_o_that_a_verb_cannot_write_is_refused(void** state) {
     fixture* f = *state;
     static const char* const commands[] = {"keys -o %/x", "noise " REFERENCE " -o %/x",
-                                           "sensitivity " REFERENCE " -o %/x"};
+                                           "sensitivity " REFERENCE " -o %/x.h5"};
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; ++i)
         assert_int_equal(bolter(f, commands[i]), 2);
 }
@@ -208,6 +208,10 @@ static void check_accepts_the_reference_and_prints_stable_steps(void** state) {
     assert_string_equal(f->err, "");
     assert_int_equal(bolter(f, "check " REFERENCE " --json"), 0);
     assert_has(f->out, "\"stable_s\"");
+    assert_int_equal(bolter(f, "check " REFERENCE " -o %/steps.csv"), 0);
+    char* table = read_text(f, "steps.csv");
+    assert_has(table, "element,setting,stable_s,used_s\n");
+    free(table);
 }
 
 static void a_step_above_the_stable_one_is_refused_with_the_step_that_would_do(void** state) {
@@ -463,7 +467,7 @@ int main(void) {
         TEST(wrong_use_is_exit_code_2),
         TEST(the_defaults_are_a_study_that_can_be_run),
         TEST(what_a_command_reads_is_never_written_over),
-        TEST(a_verb_that_only_prints_takes_no_o),
+        TEST(an_o_that_a_verb_cannot_write_is_refused),
         TEST(no_file_of_the_users_is_replaced),
         TEST(output_is_by_suffix_in_every_verb),
         TEST(quiet_keeps_results),

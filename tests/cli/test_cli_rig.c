@@ -61,11 +61,16 @@ static void static_rig_prints_its_points_beside_the_measured_ones(void** state) 
     fixture* f = *state;
     assert_int_equal(bolter(f, "rig nose-static studies/rigs/currey.yaml -o %/x"), 0);
     assert_has(f->out, "  at stroke_m 0.39423");
-    assert_has(f->out, "363495    -2.87 %      4.0 %  yes");
+    assert_has(f->out, "363495     -2.87           4.0       yes");
     assert_has(f->out, "20 of 20 points within 4 %, largest error 3.54 %");
     free(read_text(f, "x/figures/nose_static_strut.csv"));
     assert_int_equal(bolter(f, "rig nose-static studies/rigs/currey.yaml --json -o %/x.h5"), 0);
     assert_has(f->out, "\"points\": [");
+    assert_int_equal(bolter(f, "rig nose-static studies/rigs/currey.yaml -o %/x.csv"), 0);
+    char* table = read_text(f, "x.csv");
+    assert_has(table, "metric,value,unit,reference,error_percent,tolerance_percent,accepted\n");
+    assert_has(table, "  at stroke_m 0.39423,");
+    free(table);
 }
 
 static void press_beyond_the_gas_is_refused_with_its_place(void** state) {

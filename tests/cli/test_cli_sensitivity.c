@@ -27,6 +27,12 @@ static void each_distance_has_a_table(void** state) {
     assert_has(f->out, "## D = 2 m");
     assert_has(f->out, "## D = 5.5 m");
     assert_has(f->out, "| aircraft.main_gear.tyre.bridging_length | 0.05 | 0 | 0.15 | m | ");
+    assert_int_equal(bolter(f, TYPED "--at '2 m,5.5 m' --keys deck.cable.mass -o %/k.csv"), 0);
+    char* table = read_text(f, "k.csv");
+    assert_has(table, "\n2,");
+    assert_has(table, "\n5.5,");
+    assert_has(table, ",deck.cable.mass,5.536,");
+    free(table);
 }
 
 /// Held at a distance the landing is that of the study with this distance, the others drawn.

@@ -1,4 +1,4 @@
-#include "cli/sensitivity_keys.h"
+#include "pipeline/likely_ranges.h"
 
 #include <stddef.h>
 #include <string.h>

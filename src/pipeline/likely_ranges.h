@@ -1,6 +1,6 @@
-/// The keys that `bolter sensitivity` looks at unless told otherwise, and how far each may be off.
-#ifndef BT_CLI_SENSITIVITY_KEYS_H
-#define BT_CLI_SENSITIVITY_KEYS_H
+/// The keys that a sensitivity study looks at unless told otherwise, and how far each may be off.
+#ifndef BT_PIPELINE_LIKELY_RANGES_H
+#define BT_PIPELINE_LIKELY_RANGES_H
 
 /// One key. low == high: a share of its value to both sides.
 typedef struct bt_likely_range {
