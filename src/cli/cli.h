@@ -55,6 +55,7 @@ BT_CHECKED bt_status bt_command_report(const bt_command* command, const bt_study
 void bt_command_parse(const bt_verb* verb, int argc, char** argv, bt_command* command);
 
 /// Exit code of a status.
+enum { BT_EXIT_INTERRUPTED = 130 };
 int bt_exit_code(bt_status status);
 
 /// A sink that prints to stderr as "file:line:column: error: text".

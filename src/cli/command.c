@@ -119,7 +119,7 @@ int bt_exit_code(bt_status status) {
     case BT_ERR_IO:
         return 5;
     case BT_ERR_INTERRUPTED:
-        return 130;
+        return BT_EXIT_INTERRUPTED;
     default:
         return 1;
     }

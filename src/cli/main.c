@@ -35,7 +35,7 @@ static void give_up(int signal_number) {
     static const char text[] = "bolter: interrupted\n";
     (void)signal_number;
     (void)!write(STDERR_FILENO, text, sizeof text - 1);
-    _exit(bt_exit_code(BT_ERR_INTERRUPTED));
+    _exit(BT_EXIT_INTERRUPTED);
 }
 
 /// Signals by which people, terminals and batch systems ask a program to end: an orderly end. A

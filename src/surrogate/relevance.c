@@ -31,7 +31,7 @@ static bt_status run_trial(void* user, int task, int worker) {
 }
 
 static double weight_of(int power) {
-    return (power % 2 ? M_SQRT2 : 1) * exp2((power - (power & 1)) / 2);
+    return (power % 2 ? M_SQRT2 : 1) * exp2(floor(0.5 * power));
 }
 
 /// Losses of `sets` sets of weights, all folds together, into the first of each set's.
