@@ -191,6 +191,64 @@ double bt_distribution_cdf(const bt_distribution* d, double x) {
     return NAN;
 }
 
+static const double LOG_ROOT_2PI = 0.91893853320467274178;
+
+static double log_normal_density(double z, double sd) {
+    return -0.5 * z * z - LOG_ROOT_2PI - log(sd);
+}
+
+static double triangular_log_density(const bt_distribution* d, double x) {
+    if (x < d->lower || x > d->upper)
+        return -INFINITY;
+    const double peak = 2 / (d->upper - d->lower);
+    if (x == d->mode)
+        return log(peak);
+    return log(x < d->mode ? peak * (x - d->lower) / (d->mode - d->lower)
+                           : peak * (d->upper - x) / (d->upper - d->mode));
+}
+
+/// k / s t^(k-1) exp(-t^k), t = (x - lower) / s.
+static double weibull_log_density(const bt_distribution* d, double x) {
+    const double t = (x - d->lower) / d->scale;
+    if (!(t > 0))
+        return -INFINITY;
+    return log(d->shape / d->scale) + (d->shape - 1) * log(t) - pow(t, d->shape);
+}
+
+double bt_distribution_log_density(const bt_distribution* d, double x) {
+    double log_mean, log_sd, t;
+    switch (d->kind) {
+    case BT_NORMAL:
+        return log_normal_density((x - d->mean) / d->sd, d->sd);
+    case BT_TRUNCATED_NORMAL:
+        return x < d->lower || x > d->upper ? -INFINITY
+                                            : log_normal_density((x - d->mean) / d->sd, d->sd) -
+                                                  log(truncated_share(d));
+    case BT_LOGNORMAL:
+        if (x <= 0)
+            return -INFINITY;
+        lognormal_logs(d, &log_mean, &log_sd);
+        return log_normal_density((log(x) - log_mean) / log_sd, log_sd) - log(x);
+    case BT_UNIFORM:
+        return x < d->lower || x > d->upper ? -INFINITY : -log(d->upper - d->lower);
+    case BT_TRIANGULAR:
+        return triangular_log_density(d, x);
+    case BT_WEIBULL:
+        return weibull_log_density(d, x);
+    case BT_GUMBEL:
+        t = (x - d->mode) / d->scale;
+        return -t - exp(-t) - log(d->scale);
+    case BT_EXPONENTIAL:
+        t = (x - d->lower) / (d->mean - d->lower);
+        return t < 0 ? -INFINITY : -t - log(d->mean - d->lower);
+    case BT_CONSTANT:
+        return x == d->mean ? 0 : -INFINITY;
+    case BT_DISTRIBUTION_KINDS:
+        break;
+    }
+    return NAN;
+}
+
 /// Mean of a truncated standard normal: (phi(a) - phi(b)) / Z; a narrow one has its middle.
 static double truncated_mean(const bt_distribution* d) {
     const double a = (d->lower - d->mean) / d->sd, b = (d->upper - d->mean) / d->sd;

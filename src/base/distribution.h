@@ -36,6 +36,9 @@ const char* bt_distribution_check(const bt_distribution* d);
 double bt_distribution_quantile(const bt_distribution* d, double u);
 /// Cumulative probability at x.
 double bt_distribution_cdf(const bt_distribution* d, double x);
+/// Natural logarithm of the density at x; -INFINITY outside the support. A constant has the density
+/// 1 at its value: its mass.
+double bt_distribution_log_density(const bt_distribution* d, double x);
 double bt_distribution_mean(const bt_distribution* d);
 
 /// The same distribution moved so that its mean is `mean` (spread unchanged; a condition).

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { GROUP_RUNS = 64 };
 static const double group_seconds = 1.0;
@@ -14,9 +15,12 @@ typedef struct campaign {
     bt_design* design;
     bt_ledger* ledger;
     bt_diag* diag;
-    int64_t count;          ///< runs of the whole design
-    int64_t next;           ///< the next run to look at
-    unsigned char* present; ///< [count / 8 + 1] one bit per run: it is in the ledger
+    int64_t count;           ///< runs of the whole design
+    int64_t next;            ///< the next run to look at
+    int64_t begin, end;      ///< runs of the round
+    double *x, *log_density; ///< of the round, [(end - begin) * axes], [end - begin]; NULL: the
+                             ///< design's own
+    unsigned char* present;  ///< [count / 8 + 1] one bit per run: it is in the ledger
     int uncommitted;
     double started_s, committed_s;
 } campaign;
@@ -48,12 +52,16 @@ static bool note_present(void* user, const bt_ledger_row* row) {
 
 static bool next_job(void* user, bt_job* job) {
     campaign* c = user;
-    while (c->next < c->count && (!mine(c, c->next) || is_present(c, c->next)))
+    while (c->next < c->end && (!mine(c, c->next) || is_present(c, c->next)))
         ++c->next;
-    if (c->next >= c->count)
+    if (c->next >= c->end)
         return false;
     job->run = c->next++;
-    bt_design_point(c->design, job->run, job->x);
+    const size_t axes = (size_t)bt_design_get_axes(c->design)->count;
+    if (c->x)
+        memcpy(job->x, c->x + (size_t)(job->run - c->begin) * axes, axes * sizeof *job->x);
+    else
+        bt_design_point(c->design, job->run, job->x);
     return true;
 }
 
@@ -65,7 +73,9 @@ static bt_status commit(campaign* c) {
 
 static bt_status store(void* user, const bt_job* job, const bt_landing_result* result) {
     campaign* c = user;
-    BT_TRY(bt_ledger_add(c->ledger, job->run, job->x, NAN, result, c->diag));
+    const double log_density =
+        c->x ? c->log_density[job->run - c->begin] : bt_design_log_density(c->design, job->x);
+    BT_TRY(bt_ledger_add(c->ledger, job->run, job->x, log_density, result, c->diag));
     count_result(c->progress, result->outcome);
     return ++c->uncommitted >= GROUP_RUNS ? commit(c) : BT_OK;
 }
@@ -80,12 +90,8 @@ static bt_status pulse(void* user) {
     return BT_OK;
 }
 
-static bt_status run(campaign* c, const bt_study* study) {
-    for (int64_t r = 0; r < c->count; ++r)
-        c->progress->total += mine(c, r);
-    BT_TRY(bt_ledger_walk(c->ledger, note_present, c, c->diag));
-    c->progress->before = c->progress->done;
-
+/// Runs what is missing of the runs begin .. end - 1.
+static bt_status run_round(campaign* c, const bt_study* study) {
     const bt_executor executor = {
         .model = &study->model,
         .inputs = study->inputs,
@@ -97,12 +103,65 @@ static bt_status run(campaign* c, const bt_study* study) {
         .pulse = pulse,
         .user = c,
     };
-    bt_status status = BT_OK;
-    if (c->progress->done < c->progress->total)
-        status = bt_executor_run(&executor, c->diag);
+    c->next = c->begin;
+    const bt_status status = bt_executor_run(&executor, c->diag);
     /* what is finished is kept, whatever ended the work */
     const bt_status committed = commit(c);
     return status == BT_OK ? committed : status;
+}
+
+static bool is_complete(const campaign* c) {
+    for (int64_t r = c->begin; r < c->end; ++r)
+        if (!is_present(c, r))
+            return false;
+    return true;
+}
+
+/// One round after the other; the points of a round are drawn when it lacks any.
+static bt_status run_rounds(campaign* c, const bt_study* study) {
+    const bt_campaign_rounds* rounds = c->options->rounds;
+    const size_t axes = (size_t)bt_design_get_axes(c->design)->count;
+    bt_status status = BT_OK;
+    for (c->begin = 0; c->begin < c->count && status == BT_OK; c->begin = c->end) {
+        const int64_t whole = rounds->end(rounds->user, c->begin);
+        c->end = whole < c->count ? whole : c->count;
+        if (is_complete(c))
+            continue;
+        if (c->begin > 0) { // a whole round is drawn, so that a campaign may grow
+            const size_t n = (size_t)(whole - c->begin);
+            c->x = malloc(n * axes * sizeof *c->x);
+            c->log_density = malloc(n * sizeof *c->log_density);
+            status = c->x && c->log_density
+                         ? rounds->draw(rounds->user, c->ledger, c->begin, (int64_t)n, c->x,
+                                        c->log_density, c->diag)
+                         : BT_ERR_MEMORY;
+        }
+        if (status == BT_OK)
+            status = run_round(c, study);
+        free(c->x);
+        free(c->log_density);
+        c->x = c->log_density = NULL;
+    }
+    return status;
+}
+
+static bt_status run(campaign* c, const bt_study* study) {
+    for (int64_t r = 0; r < c->count; ++r)
+        c->progress->total += mine(c, r);
+    BT_TRY(bt_ledger_walk(c->ledger, note_present, c, c->diag));
+    c->progress->before = c->progress->done;
+    if (c->progress->done >= c->progress->total)
+        return commit(c);
+    if (c->options->rounds && c->options->shards > 1) {
+        bt_diag_add(c->diag, BT_ERROR, BT_NOWHERE,
+                    "campaign: rounds need the landings of all shards; set campaign.unsure to 0 "
+                    "to run the design conditions in shards");
+        return BT_ERR_INPUT;
+    }
+    if (c->options->rounds)
+        return run_rounds(c, study);
+    c->end = c->count;
+    return run_round(c, study);
 }
 
 bt_status bt_campaign_run(const bt_study* study, bt_ledger* ledger,

@@ -16,19 +16,31 @@ typedef struct bt_campaign_progress {
 
 typedef void bt_campaign_watch(void* user, const bt_campaign_progress* progress);
 
+/// Rounds of a design whose points depend on the landings before: a round begins where another
+/// ends, when all its runs are in the ledger.
+typedef struct bt_campaign_rounds {
+    /// The first run after a round that begins at `begin`.
+    int64_t (*end)(void* user, int64_t begin);
+    /// Points and log densities of the n runs from `begin` on; all before are in the ledger.
+    bt_status (*draw)(void* user, bt_ledger* ledger, int64_t begin, int64_t n, double* x,
+                      double* log_density, bt_diag* diag);
+    void* user;
+} bt_campaign_rounds;
+
 typedef struct bt_campaign_options {
     int shard, shards;        ///< runs with run % shards == shard; shards 0 or 1: all
     int threads;              ///< 0: what the study says
     const atomic_int* stop;   ///< may be NULL; not 0: finish what is in flight
     bt_campaign_watch* watch; ///< may be NULL; called about five times a second and at the end
     void* user;
+    const bt_campaign_rounds* rounds; ///< NULL: the design's own points, all at once
 } bt_campaign_options;
 
 /// Runs what is missing. Results are committed in groups (64 runs or one second); the ledger's
 /// content does not depend on the number of threads, on interruptions, or on shards.
 /// `progress` is filled in any case. Returns BT_OK, BT_ERR_INTERRUPTED, BT_ERR_FAILED_RUNS (more
-/// failed than campaign.max_failed allows; all runs are done), BT_ERR_INPUT, BT_ERR_IO,
-/// BT_ERR_MEMORY.
+/// failed than campaign.max_failed allows; all runs are done), BT_ERR_INPUT (also rounds of a
+/// shard, which does not have the landings of the others), BT_ERR_IO, BT_ERR_MEMORY.
 BT_CHECKED bt_status bt_campaign_run(const bt_study* study, bt_ledger* ledger,
                                      const bt_campaign_options* options,
                                      bt_campaign_progress* progress, bt_diag* diag);

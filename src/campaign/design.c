@@ -22,11 +22,15 @@ struct bt_design {
     int64_t sobol_next; ///< index that the generator gives next; it leaves out 0, the origin
     double sobol_point[SOBOL_AXES_MAX];
     uint64_t shift[BT_INPUT_MAX];
+    bt_mixture* mixture; ///< conditions only, with a sequence for each component
+    gsl_qrng* sequence[BT_COMPONENT_MAX];
+    int64_t drawn[BT_COMPONENT_MAX]; ///< points given so far
+    int64_t mixture_next;            ///< run that comes next
 };
 
 bt_axes bt_design_axes(const bt_study* study) {
     bt_axes axes = {0};
-    const bool by_distribution = study->campaign.design == BT_DESIGN_MONTE_CARLO;
+    const bool by_distribution = bt_design_is_random(study->campaign.design);
     for (int i = 0; i < study->input_count; ++i) {
         const bt_input* input = &study->inputs[i];
         if (by_distribution ? input->random : input->bounded)
@@ -60,12 +64,22 @@ static void choose_levels(bt_design* d) {
     }
 }
 
+static bt_status prepare_mixture(bt_design* d, bt_diag* diag) {
+    BT_TRY(bt_mixture_create(d->study, &d->mixture, diag));
+    for (int c = 0; c < d->mixture->components; ++c) {
+        d->sequence[c] = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)d->axes.count);
+        if (!d->sequence[c])
+            return BT_ERR_MEMORY;
+    }
+    return BT_OK;
+}
+
 static bt_status prepare(bt_design* d, bt_diag* diag) {
     const char* const name = bt_design_names[d->study->campaign.design];
     if (d->axes.count == 0) {
         bt_diag_add(
             diag, BT_ERROR, BT_NOWHERE,
-            d->study->campaign.design == BT_DESIGN_MONTE_CARLO
+            bt_design_is_random(d->study->campaign.design)
                 ? "campaign: design %s has no random input; give at least one in uncertainty"
                 : "campaign: design %s has no axis; give at least one range in "
                   "campaign.bounds",
@@ -101,7 +115,7 @@ static bt_status prepare(bt_design* d, bt_diag* diag) {
             return BT_ERR_MEMORY;
         d->sobol_next = 1;
     }
-    return BT_OK;
+    return d->study->campaign.design == BT_DESIGN_CONDITIONS ? prepare_mixture(d, diag) : BT_OK;
 }
 
 bt_status bt_design_create(const bt_study* study, bt_design** design, bt_diag* diag) {
@@ -124,6 +138,10 @@ void bt_design_destroy(bt_design* design) {
         return;
     if (design->sobol)
         gsl_qrng_free(design->sobol);
+    for (int c = 0; c < BT_COMPONENT_MAX; ++c)
+        if (design->sequence[c])
+            gsl_qrng_free(design->sequence[c]);
+    free(design->mixture);
     free(design);
 }
 
@@ -152,6 +170,45 @@ static void sobol_seek(bt_design* d, int64_t run) {
 static double shifted(double u, uint64_t shift) {
     const uint64_t digits = (uint64_t)(u * 0x1p52) ^ shift;
     return ((double)digits + 0.5) * 0x1p-52;
+}
+
+/* ---- the mixture of the conditions ---- */
+
+static void restart_mixture(bt_design* d) {
+    for (int c = 0; c < d->mixture->components; ++c)
+        gsl_qrng_init(d->sequence[c]);
+    memset(d->drawn, 0, sizeof d->drawn);
+    d->mixture_next = 0;
+}
+
+/// The next point of the mixture: index 0 of a component's sequence is the origin.
+static void mixture_next(bt_design* d, double* x) {
+    const bt_mixture* m = d->mixture;
+    double behind = -INFINITY, u[SOBOL_AXES_MAX] = {0};
+    int c = 0;
+    for (int k = 0; k < m->components; ++k) {
+        const double lack = m->share[k] * (double)(d->mixture_next + 1) - (double)d->drawn[k];
+        if (lack > behind) {
+            behind = lack;
+            c = k;
+        }
+    }
+    if (d->drawn[c]++ > 0)
+        gsl_qrng_get(d->sequence[c], u);
+    for (int k = 0; k < m->dims; ++k) {
+        const uint64_t bits = bt_rng_bits((uint64_t)d->study->campaign.seed, (uint64_t)c,
+                                          (uint32_t)(VARIABLE_SHIFT + k));
+        u[k] = shifted(u[k], bits >> 12);
+    }
+    bt_mixture_point(m, c, u, x);
+    ++d->mixture_next;
+}
+
+static void mixture_point(bt_design* d, int64_t run, double* x) {
+    if (run < d->mixture_next)
+        restart_mixture(d);
+    while (d->mixture_next <= run)
+        mixture_next(d, x);
 }
 
 /// A keyed permutation of 0 .. count - 1 at one place: a Feistel network over the next even number
@@ -195,6 +252,10 @@ static double fraction(bt_design* d, int64_t run, int axis, const int64_t* level
 
 void bt_design_point(bt_design* design, int64_t run, double* x) {
     int64_t level[BT_INPUT_MAX] = {0};
+    if (design->mixture) {
+        mixture_point(design, run, x);
+        return;
+    }
     if (design->study->campaign.design == BT_DESIGN_SOBOL)
         sobol_seek(design, run);
     if (design->study->campaign.design == BT_DESIGN_FULL_FACTORIAL) {
@@ -211,4 +272,23 @@ void bt_design_point(bt_design* design, int64_t run, double* x) {
                    ? bt_distribution_quantile(&input->distribution, u)
                    : input->lower + u * (input->upper - input->lower);
     }
+}
+
+double bt_design_log_density(const bt_design* design, const double* x) {
+    const int kind = design->study->campaign.design;
+    if (design->mixture)
+        return bt_mixture_log_density(design->mixture, x, NULL);
+    double sum = kind == BT_DESIGN_FULL_FACTORIAL ? NAN : 0;
+    for (int i = 0; i < design->axes.count; ++i) {
+        const bt_input* input = &design->study->inputs[design->axes.input[i]];
+        sum += kind == BT_DESIGN_MONTE_CARLO
+                   ? bt_distribution_log_density(&input->distribution, x[i])
+               : x[i] < input->lower || x[i] > input->upper ? -INFINITY
+                                                            : -log(input->upper - input->lower);
+    }
+    return sum;
+}
+
+const bt_mixture* bt_design_mixture(const bt_design* design) {
+    return design->mixture;
 }

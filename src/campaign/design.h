@@ -3,10 +3,10 @@
 #ifndef BT_CAMPAIGN_DESIGN_H
 #define BT_CAMPAIGN_DESIGN_H
 
-#include "study/study.h"
+#include "campaign/mixture.h"
 
 /// The axes of a study's design: indices into study->inputs, in their order. The axes are the
-/// inputs with bounds; for monte_carlo the inputs with a distribution.
+/// inputs with bounds; for monte_carlo and conditions the inputs with a distribution.
 typedef struct bt_axes {
     int count;
     int input[BT_INPUT_MAX];
@@ -37,6 +37,17 @@ int64_t bt_design_count(const bt_design* design);
 /// full_factorial   equally spaced levels, bounds included (a single level: the middle); the last
 ///                  axis turns fastest
 /// monte_carlo      quantile of each distribution at a uniform number keyed by (seed, run, input)
+/// conditions       a Sobol' sequence with its own shift inside each component of the mixture of
+/// all
+///                  conditions (mixture.h); the component whose number of runs is furthest behind
+///                  its share comes next
 void bt_design_point(bt_design* design, int64_t run, double* x);
+
+/// Natural logarithm of the density that the points of the design are drawn with, at a point; NAN
+/// for a full factorial, which is not drawn; -INFINITY outside the box.
+double bt_design_log_density(const bt_design* design, const double* x);
+
+/// The mixture of the design conditions; NULL for the others.
+const bt_mixture* bt_design_mixture(const bt_design* design);
 
 #endif

@@ -45,7 +45,7 @@ static void warn(const bt_study* study, bt_diag* diag) {
     warn_of_settings(&study->model, diag);
     for (int i = 0; i < study->input_count; ++i) {
         const bt_input* input = &study->inputs[i];
-        if (study->campaign.design == BT_DESIGN_MONTE_CARLO || !input->random)
+        if (bt_design_is_random(study->campaign.design) || !input->random)
             continue;
         if (!input->bounded) {
             bt_diag_add(diag, BT_WARNING, input->where,
@@ -66,7 +66,7 @@ static void warn(const bt_study* study, bt_diag* diag) {
 
 /// The ends of what an input may be: of its range in the design, or 99.8 % of its distribution.
 static void ends_of(const bt_study* study, const bt_input* input, double ends[2]) {
-    const bool drawn = study->campaign.design == BT_DESIGN_MONTE_CARLO || !input->bounded;
+    const bool drawn = bt_design_is_random(study->campaign.design) || !input->bounded;
     ends[0] = drawn ? bt_distribution_quantile(&input->distribution, 0.001) : input->lower;
     ends[1] = drawn ? bt_distribution_quantile(&input->distribution, 0.999) : input->upper;
 }

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /// Of selection and training: raise it when the same landings and settings give another model.
-static const char algorithm[] = "fit 2";
+static const char algorithm[] = "fit 3";
 
 /// What a fit depends on, as a text: algorithm, landings and settings.
 static bt_status fit_key(bt_study_directory* directory, char* text, size_t size) {
@@ -15,8 +15,8 @@ static bt_status fit_key(bt_study_directory* directory, char* text, size_t size)
     FILE* out = fmemopen(text, size, "w");
     if (!out)
         return BT_ERR_MEMORY;
-    fprintf(out, "%s: %016" PRIx64 " folds %lld holdout %a C", algorithm, hash, (long long)p->folds,
-            p->holdout);
+    fprintf(out, "%s: %016" PRIx64 " features %d folds %lld holdout %a C", algorithm, hash,
+            p->features, (long long)p->folds, p->holdout);
     for (int i = 0; i < p->C.count; ++i)
         fprintf(out, " %a", p->C.value[i]);
     fprintf(out, " gamma");
@@ -34,21 +34,35 @@ static bool load_current(bt_study_directory* directory, const char* key, const c
     return same && bt_surrogate_load(path, surrogate, NULL) == BT_OK;
 }
 
+/// The landings with their features, as a training set.
+static bt_status extend(const bt_study* study, const bt_labels* labels, const bt_axes* axes,
+                        bt_training_set* set, double** x) {
+    const bt_features features = bt_features_of(study, axes->input, axes->count);
+    const int dims = axes->count + features.count;
+    *x = malloc(((size_t)labels->count * (size_t)dims + 1) * sizeof **x);
+    if (!*x)
+        return BT_ERR_MEMORY;
+    bt_features_extend(&features, labels->x, labels->count, *x);
+    *set = (bt_training_set){.dims = dims, .count = labels->count, .x = *x, .label = labels->label};
+    return BT_OK;
+}
+
 static bt_status train(bt_study_directory* directory, const char* path, bt_surrogate* surrogate) {
     const bt_study* study = directory->study;
     const bt_axes axes = bt_design_axes(study);
     bt_labels labels;
+    bt_training_set set;
+    double* x = NULL;
     BT_TRY(bt_labels_read(directory->ledger, axes.count, &labels, directory->diag));
-    const bt_training_set set = {
-        .dims = axes.count, .count = labels.count, .x = labels.x, .label = labels.label};
-    bt_status status =
-        bt_surrogate_train(&set, &study->surrogate, (uint64_t)study->campaign.seed,
-                           (int)study->campaign.threads, surrogate, NULL, directory->diag);
+    bt_status status = extend(study, &labels, &axes, &set, &x);
+    if (status == BT_OK)
+        status = bt_surrogate_train(&set, &study->surrogate, (uint64_t)study->campaign.seed,
+                                    (int)study->campaign.threads, surrogate, NULL, directory->diag);
+    free(x);
     bt_labels_destroy(&labels);
     if (status != BT_OK)
         return status;
-    for (int i = 0; i < axes.count; ++i)
-        memcpy(surrogate->path[i], study->inputs[axes.input[i]].path, BT_PATH_MAX);
+    bt_surrogate_name(surrogate, study, axes.input, axes.count);
     surrogate->study_hash = study->hash;
     status = bt_surrogate_save(surrogate, path, directory->diag);
     if (status != BT_OK)

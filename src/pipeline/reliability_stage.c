@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 /// Of sampling, checks and correction: raise it when the same inputs give another table.
-static const char algorithm[] = "reliability 2";
+static const char algorithm[] = "reliability 3";
 
 /// What the table depends on, as a text (to be freed): the surrogate, the distributions, the
 /// conditions, the settings, and the model that checks it.
@@ -18,10 +18,12 @@ static char* table_key(const bt_study* study, const bt_surrogate* surrogate) {
     if (!out)
         return NULL;
     fprintf(out,
-            "%s: training %016" PRIx64 " C %a gamma %a rho %a samples %lld truth %lld others %d "
+            "%s: campaign %016" PRIx64 " unsure %a training %016" PRIx64
+            " C %a gamma %a rho %a samples %lld truth %lld others %d "
             "seed %lld\n",
-            algorithm, surrogate->training_hash, surrogate->C, surrogate->gamma, surrogate->rho,
-            (long long)p->samples, (long long)p->truth_runs, p->others, (long long)p->seed);
+            algorithm, study->hash, study->campaign.unsure, surrogate->training_hash, surrogate->C,
+            surrogate->gamma, surrogate->rho, (long long)p->samples, (long long)p->truth_runs,
+            p->others, (long long)p->seed);
     for (int i = 0; i < study->input_count; ++i) {
         const bt_distribution* d = &study->inputs[i].distribution;
         if (study->inputs[i].random)
@@ -37,20 +39,40 @@ static char* table_key(const bt_study* study, const bt_surrogate* surrogate) {
     return text;
 }
 
+/// The landings of the ledger as evidence; *judged NULL when the design says nothing about the
+/// conditions.
+static bt_status judge(bt_study_directory* directory, bt_evidence* evidence, bt_judged** judged) {
+    const bt_study* study = directory->study;
+    *judged = NULL;
+    if (!bt_judged_possible(study))
+        return BT_OK;
+    BT_TRY(bt_evidence_read(directory->ledger, study, INT64_MAX, evidence, directory->diag));
+    const bt_status status = bt_judged_create(study, evidence, judged, directory->diag);
+    if (status != BT_OK)
+        bt_evidence_destroy(evidence);
+    return status;
+}
+
 static bt_status compute(bt_study_directory* directory, const bt_surrogate* surrogate,
                          const bt_reliability_stage* stage, bt_reliability_result* result) {
     const int threads = (int)directory->study->campaign.threads;
     bt_high_fidelity* truth = NULL;
-    BT_TRY(bt_high_fidelity_create(directory->study, threads, stage->stop, &truth));
-    const bt_reliability_options options = {.truth = bt_high_fidelity_run,
+    bt_evidence evidence = {0};
+    bt_judged* judged = NULL;
+    BT_TRY(judge(directory, &evidence, &judged));
+    bt_status status = bt_high_fidelity_create(directory->study, threads, stage->stop, &truth);
+    const bt_reliability_options options = {.judged = judged,
+                                            .truth = bt_high_fidelity_run,
                                             .truth_user = truth,
                                             .threads = threads,
                                             .stop = stage->stop,
                                             .watch = stage->watch,
                                             .watch_user = stage->watch_user};
-    const bt_status status =
-        bt_reliability_run(directory->study, surrogate, &options, result, directory->diag);
+    if (status == BT_OK)
+        status = bt_reliability_run(directory->study, surrogate, &options, result, directory->diag);
     bt_high_fidelity_destroy(truth);
+    bt_judged_destroy(judged);
+    bt_evidence_destroy(&evidence);
     return status;
 }
 

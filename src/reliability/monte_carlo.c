@@ -63,16 +63,18 @@ static bt_status run_task(void* user, int task, int worker) {
     return BT_OK;
 }
 
-bt_status bt_monte_carlo(const bt_sampler* sampler, const bt_classifier* classifier,
-                         int64_t samples, int threads, const bt_pool* pool, bt_tally* tally) {
+/// Samples first .. end - 1.
+static bt_status run_range(const bt_sampler* sampler, const bt_classifier* classifier,
+                           int64_t first, int64_t end, int threads, const bt_pool* pool,
+                           bt_tally* tally) {
     *tally = (bt_tally){0};
     threads = bt_thread_count(threads);
-    job j = {sampler, classifier, pool, samples, 0, calloc((size_t)threads, sizeof(scratch))};
+    job j = {sampler, classifier, pool, end, first, calloc((size_t)threads, sizeof(scratch))};
     if (!j.scratch)
         return BT_ERR_MEMORY;
     bt_status status = BT_OK;
-    while (j.first < samples && status == BT_OK) {
-        const int64_t tasks = (samples - j.first + TASK - 1) / TASK;
+    while (j.first < end && status == BT_OK) {
+        const int64_t tasks = (end - j.first + TASK - 1) / TASK;
         const int count = tasks < ROUND ? (int)tasks : ROUND;
         status = bt_tasks_run(threads, count, run_task, &j);
         j.first += (int64_t)count * TASK;
@@ -85,5 +87,19 @@ bt_status bt_monte_carlo(const bt_sampler* sampler, const bt_classifier* classif
         tally->outside_engaged += part->outside_engaged;
     }
     free(j.scratch);
+    return status;
+}
+
+bt_status bt_monte_carlo(const bt_sampler* sampler, const bt_classifier* classifier,
+                         int64_t samples, int threads, const bt_pool* pool, bt_tally* tally) {
+    return run_range(sampler, classifier, 0, samples, threads, pool, tally);
+}
+
+bt_status bt_monte_carlo_range(const bt_sampler* sampler, const bt_classifier* classifier,
+                               int64_t first, int64_t samples, int threads, int64_t* engaged) {
+    bt_tally tally;
+    const bt_status status =
+        run_range(sampler, classifier, first, first + samples, threads, NULL, &tally);
+    *engaged = tally.engaged;
     return status;
 }

@@ -37,4 +37,9 @@ BT_CHECKED bt_status bt_monte_carlo(const bt_sampler* sampler, const bt_classifi
                                     int64_t samples, int threads, const bt_pool* pool,
                                     bt_tally* tally);
 
+/// How many of the samples first .. first + samples - 1 are labelled engaged.
+BT_CHECKED bt_status bt_monte_carlo_range(const bt_sampler* sampler,
+                                          const bt_classifier* classifier, int64_t first,
+                                          int64_t samples, int threads, int64_t* engaged);
+
 #endif

@@ -1,97 +1,12 @@
-#include "reliability/reliability.h"
+#include "reliability/pool_rows.h"
 
 #include "base/clock.h"
-#include "surrogate/predictor.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { POOL_MAX = 1000000, GATHER = 128 };
-
-/* ---- the surrogate as a classifier ---- */
-
-struct bt_surrogate_classifier {
-    bt_classifier classifier;
-    bt_predictor* predictor;
-    int dims, inputs;        ///< of the surrogate, of the study
-    int input[BT_INPUT_MAX]; ///< the study's input behind each of the surrogate's
-    bool straight;           ///< the same inputs in the same order
-};
-
-static void classify(void* user, const double* x, int n, int8_t* label, float* decision) {
-    const bt_surrogate_classifier* c = user;
-    if (c->straight) {
-        bt_predictor_label(c->predictor, x, n, label, decision);
-        return;
-    }
-    double gathered[GATHER * BT_INPUT_MAX];
-    for (int at = 0; at < n; at += GATHER) {
-        const int count = n - at < GATHER ? n - at : GATHER;
-        for (int i = 0; i < count; ++i)
-            for (int k = 0; k < c->dims; ++k)
-                gathered[i * c->dims + k] =
-                    x[(size_t)(at + i) * (size_t)c->inputs + (size_t)c->input[k]];
-        bt_predictor_label(c->predictor, gathered, count, label + at, decision + at);
-    }
-}
-
-static int find_input(const bt_study* study, const char* path) {
-    for (int i = 0; i < study->input_count; ++i)
-        if (!strcmp(study->inputs[i].path, path))
-            return i;
-    return -1;
-}
-
-bt_status bt_surrogate_classifier_create(const bt_study* study, const bt_surrogate* surrogate,
-                                         bt_surrogate_classifier** made, bt_diag* diag) {
-    *made = NULL;
-    bt_surrogate_classifier* c = calloc(1, sizeof *c);
-    if (!c)
-        return BT_ERR_MEMORY;
-    c->dims = surrogate->dims;
-    c->inputs = study->input_count;
-    c->straight = c->dims == c->inputs;
-    c->classifier =
-        (bt_classifier){.classify = classify, .user = c, .dims = c->inputs, .boxed = true};
-    for (int i = 0; i < c->inputs; ++i) {
-        c->classifier.least[i] = -INFINITY;
-        c->classifier.greatest[i] = INFINITY;
-    }
-    bt_status status = BT_OK;
-    for (int k = 0; k < c->dims; ++k) {
-        const int input = c->input[k] = find_input(study, surrogate->path[k]);
-        if (input < 0) {
-            bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                        "the surrogate was trained on %s, which is not an input of this study; run "
-                        "fit again",
-                        surrogate->path[k]);
-            status = BT_ERR_INPUT;
-            continue;
-        }
-        c->straight = c->straight && input == k;
-        c->classifier.least[input] = surrogate->least[k];
-        c->classifier.greatest[input] = surrogate->greatest[k];
-    }
-    if (status == BT_OK)
-        status = bt_predictor_create(surrogate, bt_isa_best(), &c->predictor);
-    if (status == BT_OK)
-        *made = c;
-    else
-        bt_surrogate_classifier_destroy(c);
-    return status;
-}
-
-void bt_surrogate_classifier_destroy(bt_surrogate_classifier* made) {
-    if (!made)
-        return;
-    bt_predictor_destroy(made->predictor);
-    free(made);
-}
-
-const bt_classifier* bt_surrogate_classifier_get(const bt_surrogate_classifier* made) {
-    return &made->classifier;
-}
+enum { POOL_MAX = 1000000 };
 
 /* ---- one condition ---- */
 
@@ -141,8 +56,10 @@ static void fill_from_check(bt_reliability_row* row, const bt_check* check) {
     const bt_check_result r = bt_check_estimate(check->stratum);
     row->disagreement = r.disagreement;
     row->disagreement_ci95 = r.disagreement_ci95;
+    row->landings = row->truth_runs;
     row->corrected = r.corrected;
     row->corrected_ci95 = r.corrected_ci95;
+    row->corrected_sampling = 0.5 * (r.corrected_ci95.greatest - r.corrected_ci95.least);
 }
 
 /// Everything but the name of the condition.
@@ -152,7 +69,9 @@ static void clear_row(bt_reliability_row* row) {
     memcpy(row->parameter, before.parameter, sizeof row->parameter);
     row->unit = before.unit;
     row->value = before.value;
-    row->disagreement = row->corrected = NAN;
+    row->disagreement = row->corrected = row->reweighted = NAN;
+    row->corrected_sampling = row->corrected_unseen = row->effective_landings = NAN;
+    row->reweighted_ci95 = (bt_interval){NAN, NAN};
     row->disagreement_ci95 = row->corrected_ci95 = (bt_interval){NAN, NAN};
 }
 
@@ -222,40 +141,77 @@ static double expected_error(const bt_surrogate* surrogate) {
     return (s->holdout_count - s->holdout_correct + 0.5) / (s->holdout_count + 1.0);
 }
 
+/// What an evaluation of a study holds on to.
+typedef struct evaluation {
+    const bt_study* study;
+    const bt_surrogate* surrogate;
+    const bt_reliability_options* options;
+    bt_surrogate_classifier* classifier;
+    bt_pool_rows* pool; ///< NULL: no landings
+} evaluation;
+
+static void name_row(const bt_study* study, int condition, bt_reliability_row* row) {
+    row->unit = "";
+    row->value = NAN;
+    if (condition < 0)
+        return;
+    const bt_input* input = &study->inputs[study->conditions[condition].input];
+    memcpy(row->parameter, input->path, sizeof row->parameter);
+    row->unit = input->field->unit;
+    row->value = study->conditions[condition].mean;
+}
+
+/// The row of a condition; -1 is the study as it stands.
+static bt_status evaluate(const evaluation* e, int condition, bt_reliability_row* row) {
+    const bt_reliability_params* params = &e->study->reliability;
+    const bt_reliability_options* o = e->options;
+    const int runs = params->truth_runs < POOL_MAX ? (int)params->truth_runs : POOL_MAX;
+    const bt_sampler sampler = bt_reliability_sampler(e->study, condition);
+    if (o->stop && atomic_load(o->stop))
+        return BT_ERR_INTERRUPTED;
+    name_row(e->study, condition, row);
+    BT_TRY(bt_reliability_condition(&sampler, bt_surrogate_classifier_get(e->classifier),
+                                    params->samples, o->threads, o->truth, o->truth_user, runs,
+                                    expected_error(e->surrogate), row));
+    return e->pool ? bt_pool_rows_fill(e->pool, condition + 1, &sampler, params->samples,
+                                       o->threads, row)
+                   : BT_OK;
+}
+
+static bt_status evaluate_all(const evaluation* e, bt_reliability_result* result) {
+    const int total = e->study->condition_count + 1;
+    const bt_reliability_options* o = e->options;
+    for (int c = 0; c < total; ++c) {
+        const bool last = c == total - 1;
+        bt_reliability_row* row = last ? &result->overall : &result->condition[c];
+        BT_TRY(evaluate(e, last ? -1 : c, row));
+        result->condition_count += !last;
+        result->landings += row->truth_runs;
+        if (o->watch)
+            o->watch(o->watch_user, c + 1, total);
+    }
+    if (e->pool) {
+        result->landings += o->judged->evidence->count;
+        bt_pool_rows_differ(e->pool, e->study, result);
+    }
+    bt_reliability_warn(e->surrogate, result);
+    return BT_OK;
+}
+
 bt_status bt_reliability_run(const bt_study* study, const bt_surrogate* surrogate,
                              const bt_reliability_options* options, bt_reliability_result* result,
                              bt_diag* diag) {
     const double begun_s = bt_clock_s();
-    const bt_reliability_params* params = &study->reliability;
-    const int total = study->condition_count + 1;
-    const int runs = params->truth_runs < POOL_MAX ? (int)params->truth_runs : POOL_MAX;
     memset(result, 0, sizeof *result);
-    bt_surrogate_classifier* classifier;
-    BT_TRY(bt_surrogate_classifier_create(study, surrogate, &classifier, diag));
+    evaluation e = {.study = study, .surrogate = surrogate, .options = options};
+    BT_TRY(bt_surrogate_classifier_create(study, surrogate, &e.classifier, diag));
     bt_status status = BT_OK;
-    for (int c = 0; c < total && status == BT_OK; ++c) {
-        const bool last = c == total - 1;
-        bt_reliability_row* row = last ? &result->overall : &result->condition[c];
-        row->unit = "";
-        row->value = NAN;
-        if (!last) {
-            const bt_input* input = &study->inputs[study->conditions[c].input];
-            memcpy(row->parameter, input->path, sizeof row->parameter);
-            row->unit = input->field->unit;
-            row->value = study->conditions[c].mean;
-        }
-        const bt_sampler sampler = bt_reliability_sampler(study, last ? -1 : c);
-        status = options->stop && atomic_load(options->stop)
-                     ? BT_ERR_INTERRUPTED
-                     : bt_reliability_condition(&sampler, bt_surrogate_classifier_get(classifier),
-                                                params->samples, options->threads, options->truth,
-                                                options->truth_user, runs,
-                                                expected_error(surrogate), row);
-        result->condition_count += !last && status == BT_OK;
-        if (options->watch && status == BT_OK)
-            options->watch(options->watch_user, c + 1, total);
-    }
-    bt_surrogate_classifier_destroy(classifier);
+    if (options->judged)
+        status = bt_pool_rows_create(options->judged, study->condition_count + 1, &e.pool);
+    if (status == BT_OK)
+        status = evaluate_all(&e, result);
+    bt_pool_rows_destroy(e.pool);
+    bt_surrogate_classifier_destroy(e.classifier);
     result->seconds = bt_clock_s() - begun_s;
     return status;
 }

@@ -5,6 +5,7 @@
 
 #include "reliability/check.h"
 #include "reliability/high_fidelity.h"
+#include "reliability/judged.h"
 #include "surrogate/surrogate.h"
 
 /// One condition: samples of the input distributions on the surrogate, and true runs of some of
@@ -25,16 +26,38 @@ typedef struct bt_reliability_row {
     int disagreements;      ///< of them, with another outcome than the surrogate's
     double disagreement;    ///< share of disagreements, weighted back to the distribution
     bt_interval disagreement_ci95;
-    double corrected;           ///< mean(surrogate) + mean(truth - surrogate), weighted
-    bt_interval corrected_ci95; ///< covers sampling and surrogate error
+    double corrected;           ///< the number to defend: mean(surrogate) + mean(truth - surrogate)
+    bt_interval corrected_ci95; ///< covers sampling, surrogate error and what was never seen
+    double corrected_sampling;  ///< half-width that what was seen gives
+    double corrected_unseen;    ///< what errors of a kind never seen add to it; NAN when the fresh
+                                ///< runs of the condition alone correct it
+    bool pooled;                ///< the corrected number comes from the landings of the ledger
+    int landings;               ///< behind the corrected number: judged landings, or fresh runs
+    double reweighted;          ///< from the landings alone, without a classifier
+    bt_interval reweighted_ci95;
+    double effective_landings; ///< landings of the condition itself that would weigh as much
     bt_stratum stratum[BT_STRATA];
     double seconds; ///< wall clock; differs from run to run
 } bt_reliability_row;
+
+/// What moving an input's mean changes, on the same landings.
+typedef struct bt_reliability_difference {
+    int from, to;      ///< conditions
+    double difference; ///< R(to) - R(from)
+    bt_interval ci95;
+} bt_reliability_difference;
+
+enum { BT_WARNING_MAX = 8, BT_WARNING_SIZE = 320 };
 
 typedef struct bt_reliability_result {
     int condition_count;
     bt_reliability_row condition[BT_CONDITION_MAX];
     bt_reliability_row overall; ///< every input about its own mean
+    int64_t landings;           ///< in the ledger, and fresh runs: each counted once
+    int difference_count;
+    bt_reliability_difference difference[BT_CONDITION_MAX]; ///< neighbours of one input
+    int warning_count;
+    char warning[BT_WARNING_MAX][BT_WARNING_SIZE]; ///< what the reader of the table must know
     double seconds;
 } bt_reliability_result;
 
@@ -42,6 +65,7 @@ typedef struct bt_reliability_result {
 typedef void bt_reliability_watch(void* user, int done, int total);
 
 typedef struct bt_reliability_options {
+    const bt_judged* judged;       ///< the landings of the ledger; NULL: the estimates use none
     bt_high_fidelity_batch* truth; ///< NULL: no true runs, whatever the study asks for
     void* truth_user;
     int threads;                 ///< for the samples; 0: one per core
@@ -82,16 +106,5 @@ BT_CHECKED bt_status bt_reliability_run(const bt_study* study, const bt_surrogat
 
 /// The distributions of one condition; condition -1 is the study as it stands.
 bt_sampler bt_reliability_sampler(const bt_study* study, int condition);
-
-/// A surrogate as a classifier of a study's inputs.
-typedef struct bt_surrogate_classifier bt_surrogate_classifier;
-
-/// Lays the surrogate out for the vector units and finds its inputs among the study's.
-/// BT_ERR_INPUT as above, BT_ERR_MEMORY. The surrogate must outlive it.
-BT_CHECKED bt_status bt_surrogate_classifier_create(const bt_study* study,
-                                                    const bt_surrogate* surrogate,
-                                                    bt_surrogate_classifier** made, bt_diag* diag);
-void bt_surrogate_classifier_destroy(bt_surrogate_classifier* made);
-const bt_classifier* bt_surrogate_classifier_get(const bt_surrogate_classifier* made);
 
 #endif

@@ -16,10 +16,16 @@ static void write_row(bt_json* json, const char* key, const bt_reliability_row* 
         bt_json_number(json, "value", row->value);
         bt_json_string(json, "unit", bt_unit_text(row->unit[0] ? row->unit : "1"));
     }
-    bt_json_number(json, "surrogate", row->surrogate);
-    write_interval(json, "surrogate_ci95", &row->surrogate_ci95);
     bt_json_number(json, "corrected", row->corrected);
     write_interval(json, "corrected_ci95", &row->corrected_ci95);
+    bt_json_number(json, "corrected_sampling", row->corrected_sampling);
+    bt_json_number(json, "corrected_unseen", row->corrected_unseen);
+    bt_json_integer(json, "landings", row->landings);
+    bt_json_number(json, "reweighted", row->reweighted);
+    write_interval(json, "reweighted_ci95", &row->reweighted_ci95);
+    bt_json_number(json, "effective_landings", row->effective_landings);
+    bt_json_number(json, "surrogate", row->surrogate);
+    write_interval(json, "surrogate_ci95", &row->surrogate_ci95);
     bt_json_integer(json, "samples", row->samples);
     bt_json_integer(json, "truth_runs", row->truth_runs);
     bt_json_integer(json, "truth_failed", row->truth_failed);
@@ -33,6 +39,17 @@ static void write_row(bt_json* json, const char* key, const bt_reliability_row* 
     bt_json_end_object(json);
 }
 
+static void write_difference(bt_json* json, const bt_reliability_result* result,
+                             const bt_reliability_difference* d) {
+    bt_json_begin_object(json, NULL);
+    bt_json_string(json, "parameter", result->condition[d->to].parameter);
+    bt_json_number(json, "from", result->condition[d->from].value);
+    bt_json_number(json, "to", result->condition[d->to].value);
+    bt_json_number(json, "difference", d->difference);
+    write_interval(json, "ci95", &d->ci95);
+    bt_json_end_object(json);
+}
+
 void bt_reliability_write_json(bt_json* json, const bt_reliability_result* result) {
     bt_json_begin_object(json, NULL);
     bt_json_begin_array(json, "conditions");
@@ -40,6 +57,15 @@ void bt_reliability_write_json(bt_json* json, const bt_reliability_result* resul
         write_row(json, NULL, &result->condition[i]);
     bt_json_end_array(json);
     write_row(json, "overall", &result->overall);
+    bt_json_begin_array(json, "differences");
+    for (int i = 0; i < result->difference_count; ++i)
+        write_difference(json, result, &result->difference[i]);
+    bt_json_end_array(json);
+    bt_json_integer(json, "landings", result->landings);
+    bt_json_begin_array(json, "warnings");
+    for (int i = 0; i < result->warning_count; ++i)
+        bt_json_string(json, NULL, result->warning[i]);
+    bt_json_end_array(json);
     bt_json_number(json, "seconds", result->seconds);
     bt_json_end_object(json);
 }

@@ -11,6 +11,11 @@ static const bt_column columns[] = {
     {.name = "value", .head = "mean", .unit = ""},
     {.name = "unit", .head = NULL, .unit = ""},
     {.name = "corrected", .head = "corrected", .unit = "", .decimals = 4, .interval = true},
+    {.name = "corrected_sampling", .head = "sampling", .unit = "%", .scale = 100, .decimals = 2},
+    {.name = "corrected_unseen", .head = "unseen", .unit = "%", .scale = 100, .decimals = 2},
+    {.name = "landings", .head = NULL, .unit = ""},
+    {.name = "reweighted", .head = "reweighted", .unit = "", .decimals = 4, .interval = true},
+    {.name = "effective_landings", .head = "worth", .unit = "", .decimals = 0},
     {.name = "surrogate", .head = "surrogate", .unit = "", .decimals = 4, .interval = true},
     {.name = "samples", .head = NULL, .unit = ""},
     {.name = "disagreements", .head = "disagree", .unit = ""},
@@ -45,7 +50,12 @@ static void add_row(bt_report_table* table, const bt_reliability_row* row) {
     bt_report_table_text(table, name_of(row));
     bt_report_table_said(table, row->parameter[0] ? row->value : NAN, value);
     bt_report_table_text(table, unit ? unit : "");
-    bt_report_table_interval(table, checked ? row->corrected : NAN, &row->corrected_ci95);
+    bt_report_table_interval(table, row->corrected, &row->corrected_ci95);
+    bt_report_table_number(table, row->corrected_sampling);
+    bt_report_table_number(table, row->corrected_unseen);
+    bt_report_table_count(table, row->landings);
+    bt_report_table_interval(table, row->reweighted, &row->reweighted_ci95);
+    bt_report_table_number(table, row->effective_landings);
     bt_report_table_interval(table, row->surrogate, &row->surrogate_ci95);
     bt_report_table_count(table, row->samples);
     bt_report_table_said(table, checked ? (double)row->disagreements : NAN, disagree);
@@ -67,6 +77,16 @@ static void remark_outside(bt_report_table* table, const bt_reliability_row* far
                            far->outside_engaged);
 }
 
+static void remark_difference(bt_report_table* table, const bt_reliability_result* result,
+                              const bt_reliability_difference* d) {
+    char from[64], to[64];
+    const bt_reliability_row* row = &result->condition[d->to];
+    value_text(&result->condition[d->from], from, sizeof from);
+    value_text(row, to, sizeof to);
+    bt_report_table_remark(table, "%s, %s against %s: %+.4f [%+.4f, %+.4f]", row->parameter, to,
+                           from, d->difference, d->ci95.least, d->ci95.greatest);
+}
+
 static void add_remarks(bt_report_table* table, const bt_reliability_result* result) {
     char samples[32];
     int failed = result->overall.truth_failed, runs = result->overall.truth_runs;
@@ -81,6 +101,19 @@ static void add_remarks(bt_report_table* table, const bt_reliability_result* res
                            bt_count_text(result->overall.samples, samples), result->seconds);
     bt_report_table_remark(table, "intervals: 95 %%; the corrected one covers the error of the "
                                   "surrogate, the surrogate's own only the sampling");
+    if (result->overall.pooled) {
+        bt_report_table_remark(table,
+                               "%s landings in all, each evidence for every row; sampling and "
+                               "unseen: half-widths that what was seen gives, and that errors of a "
+                               "kind never seen add",
+                               bt_count_text(result->landings, samples));
+        bt_report_table_remark(table, "reweighted: without any classifier; worth: landings of the "
+                                      "condition alone that would weigh as much");
+    }
+    for (int i = 0; i < result->difference_count; ++i)
+        remark_difference(table, result, &result->difference[i]);
+    for (int i = 0; i < result->warning_count; ++i)
+        bt_report_table_remark(table, "warning: %s", result->warning[i]);
     if (runs > 0) {
         bt_report_table_remark(table, "disagree: high-fidelity runs whose outcome differs from "
                                       "the surrogate's; share: weighted back to the distribution");

@@ -1,7 +1,12 @@
 #include "study/study.h"
 
 const char* const bt_design_names[] = {"sobol", "latin_hypercube", "full_factorial", "monte_carlo",
-                                       NULL};
+                                       "conditions", NULL};
+
+bool bt_design_is_random(int design) {
+    return design == BT_DESIGN_MONTE_CARLO || design == BT_DESIGN_CONDITIONS;
+}
+
 const char* const bt_others_names[] = {"scatter", "frozen", NULL};
 
 #define ROW(kind, name, ...) BT_ROW_##kind(bt_campaign_params, name, __VA_ARGS__)

@@ -15,7 +15,7 @@ typedef struct writer {
 
 /// Whether the design gives an input its values: by its distribution or by its bounds.
 static bool is_axis(const bt_study* study, const bt_input* input) {
-    return study->campaign.design == BT_DESIGN_MONTE_CARLO ? input->random : input->bounded;
+    return bt_design_is_random(study->campaign.design) ? input->random : input->bounded;
 }
 
 /// Whether no run has a key's own value, as every run gets one from the design.
@@ -98,11 +98,24 @@ static void write_design(FILE* out, const bt_study* study) {
         const bt_input* input = &study->inputs[i];
         if (!is_axis(study, input))
             continue;
-        if (design == BT_DESIGN_MONTE_CARLO)
+        if (bt_design_is_random(design))
             write_distribution(out, input);
         else
             write_bounds(out, input, factorial);
     }
+}
+
+/// The conditions that the design draws from, and how.
+static void write_conditions(FILE* out, const bt_study* study) {
+    for (int i = 0; i < study->condition_count; ++i) {
+        fprintf(out, "reliability.conditions.%s =",
+                study->inputs[study->conditions[i].input].path);
+        write_number(out, study->conditions[i].mean);
+        fputc('\n', out);
+    }
+    fprintf(out, "campaign.unsure =");
+    write_number(out, study->campaign.unsure);
+    fputc('\n', out);
 }
 
 char* bt_study_identity(const bt_study* study) {
@@ -112,6 +125,8 @@ char* bt_study_identity(const bt_study* study) {
     if (!out)
         return NULL;
     write_design(out, study);
+    if (study->campaign.design == BT_DESIGN_CONDITIONS)
+        write_conditions(out, study);
     writer w = {.out = out, .study = study, .params = &study->model};
     bt_params_walk(&bt_model_group, &study->model, write_field, &w);
     if (fclose(out) != 0) {

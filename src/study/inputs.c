@@ -301,7 +301,7 @@ static int by_offset(const void* a, const void* b) {
 /// A surrogate knows only the axes of the design: every random input must be one of them, and its
 /// mean inside.
 static void check_coverage(bt_reader* reader, const bt_study* study) {
-    if (study->campaign.design == BT_DESIGN_MONTE_CARLO)
+    if (bt_design_is_random(study->campaign.design))
         return;
     for (int i = 0; i < study->input_count; ++i) {
         const bt_input* input = &study->inputs[i];

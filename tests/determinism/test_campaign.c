@@ -3,7 +3,7 @@
 #define _GNU_SOURCE
 #include "near.h"
 
-#include "campaign/campaign.h"
+#include "pipeline/pipeline.h"
 #include "toy_study.h"
 
 #include <signal.h>
@@ -173,8 +173,7 @@ static void any_run_repeats_alone_to_the_bit(void** state) {
         bt_landing_result result;
         assert_int_equal(bt_ledger_get(ledger, 17 + 60 * k, &row, NULL), BT_OK);
         assert_int_equal(
-            bt_landing_at(lander, model, study.inputs, &axes, row.x, &result, NULL, NULL),
-            BT_OK);
+            bt_landing_at(lander, model, study.inputs, &axes, row.x, &result, NULL, NULL), BT_OK);
         assert_true(result.state_hash == row.result.state_hash);
         assert_memory_equal(&result.margin_m, &row.result.margin_m, sizeof result.margin_m);
     }
@@ -193,8 +192,8 @@ static void a_point_outside_what_the_model_allows_is_a_failed_run_with_the_key(v
     *model = study.model;
     assert_int_equal(bt_lander_create(&lander), BT_OK);
     const double x[4] = {3.6, -47.5, 0.05, 6};
-    assert_int_equal(
-        bt_landing_at(lander, model, study.inputs, &axes, x, &result, NULL, NULL), BT_OK);
+    assert_int_equal(bt_landing_at(lander, model, study.inputs, &axes, x, &result, NULL, NULL),
+                     BT_OK);
     assert_int_equal(result.outcome, BT_FAILED);
     assert_string_equal(result.failed_element, "landing.horizontal_speed");
     bt_lander_destroy(lander);
@@ -225,6 +224,62 @@ static void too_many_failed_runs_are_an_error_and_are_kept(void** state) {
     free(wild);
 }
 
+/* ---- rounds ---- */
+
+/// A study whose landings come in rounds: the second and third depend on those before.
+static void make_rounds(bt_study* rounds) {
+    *rounds = study;
+    rounds->campaign.design = BT_DESIGN_CONDITIONS;
+    rounds->campaign.samples = 200;
+}
+
+/// Runs the campaign up to `samples`, then to its end, and returns the hash of the ledger.
+static uint64_t hash_of_rounds(int threads, int samples) {
+    static bt_study rounds;
+    make_rounds(&rounds);
+    rounds.campaign.threads = threads;
+    char* name = toy_directory();
+    snprintf(rounds.directory, sizeof rounds.directory, "%s", name);
+    bt_study_directory directory;
+    assert_int_equal(bt_study_directory_open(&directory, &rounds, BT_LEDGER_CREATE, NULL), BT_OK);
+    const bt_campaign_options options = {.threads = threads};
+    bt_campaign_progress progress;
+    rounds.campaign.samples = samples;
+    assert_int_equal(bt_stage_campaign(&directory, &options, &progress), BT_OK);
+    rounds.campaign.samples = 200;
+    assert_int_equal(bt_stage_campaign(&directory, &options, &progress), BT_OK);
+    assert_int_equal(progress.done, 200);
+    const uint64_t hash = hash_of(directory.ledger);
+    bt_study_directory_close(&directory);
+    toy_directory_remove(name);
+    return hash;
+}
+
+static void rounds_have_the_same_bits_for_any_threads_and_any_stop(void** state) {
+    (void)state;
+    const uint64_t hash = hash_of_rounds(1, 200);
+    assert_true(hash == hash_of_rounds(3, 150)); // stopped inside the second round
+    assert_true(hash == hash_of_rounds(2, 40));  // and inside the first
+}
+
+static void rounds_of_a_shard_are_refused(void** state) {
+    (void)state;
+    static bt_study rounds;
+    make_rounds(&rounds);
+    char* name = toy_directory();
+    snprintf(rounds.directory, sizeof rounds.directory, "%s", name);
+    toy_messages said;
+    bt_diag diag = toy_diag(&said);
+    bt_study_directory directory;
+    assert_int_equal(bt_study_directory_open(&directory, &rounds, BT_LEDGER_CREATE, &diag), BT_OK);
+    const bt_campaign_options options = {.shard = 0, .shards = 2};
+    bt_campaign_progress progress;
+    assert_int_equal(bt_stage_campaign(&directory, &options, &progress), BT_ERR_INPUT);
+    assert_non_null(strstr(said.last, "campaign.unsure"));
+    bt_study_directory_close(&directory);
+    toy_directory_remove(name);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_1_2_3_and_8_give_the_same_bits),
@@ -234,6 +289,8 @@ int main(void) {
         cmocka_unit_test(any_run_repeats_alone_to_the_bit),
         cmocka_unit_test(a_point_outside_what_the_model_allows_is_a_failed_run_with_the_key),
         cmocka_unit_test(too_many_failed_runs_are_an_error_and_are_kept),
+        cmocka_unit_test(rounds_have_the_same_bits_for_any_threads_and_any_stop),
+        cmocka_unit_test(rounds_of_a_shard_are_refused),
     };
     return cmocka_run_group_tests(tests, read_study, free_study);
 }

@@ -85,6 +85,25 @@ static void a_narrow_truncated_normal_has_its_mean_in_the_middle(void** state) {
     }
 }
 
+/// The density is the slope of the cumulative probability.
+static void density_is_the_derivative_of_the_probability(void** state) {
+    (void)state;
+    for (int i = 0; i < SAMPLES; ++i)
+        for (int k = 1; k < 100; ++k) {
+            const double a = bt_distribution_quantile(&samples[i], (k - 1e-3) / 100),
+                         b = bt_distribution_quantile(&samples[i], (k + 1e-3) / 100);
+            const double slope = 2e-5 / (b - a);
+            BT_ASSERT_NEAR(exp(bt_distribution_log_density(&samples[i], a + (b - a) / 2)), slope,
+                           2e-5, 0);
+        }
+    assert_true(isinf(bt_distribution_log_density(&samples[4], -1)));
+    assert_true(isinf(bt_distribution_log_density(&samples[5], -3.1)));
+    assert_true(isinf(bt_distribution_log_density(&samples[10], 0.9)));
+    const bt_distribution constant = {.kind = BT_CONSTANT, .mean = 2};
+    assert_true(bt_distribution_log_density(&constant, 2) == 0);
+    assert_true(isinf(bt_distribution_log_density(&constant, 2.1)));
+}
+
 static void known_quantiles(void** state) {
     (void)state;
     BT_ASSERT_NEAR(bt_distribution_quantile(&samples[0], 0.975), 3.6 + 0.9 * 1.959963984540054,
@@ -187,6 +206,7 @@ int main(void) {
         cmocka_unit_test(quantiles_rise_and_stay_finite_to_the_ends_of_the_generator),
         cmocka_unit_test(mean_is_that_of_the_quantiles),
         cmocka_unit_test(a_narrow_truncated_normal_has_its_mean_in_the_middle),
+        cmocka_unit_test(density_is_the_derivative_of_the_probability),
         cmocka_unit_test(known_quantiles),
         cmocka_unit_test(probabilities_outside_the_support_are_zero_and_one),
         cmocka_unit_test(moving_changes_the_mean_and_nothing_else),

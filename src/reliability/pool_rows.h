@@ -1,0 +1,33 @@
+/// The pooled estimates in the rows of the reliability table.
+#ifndef BT_RELIABILITY_POOL_ROWS_H
+#define BT_RELIABILITY_POOL_ROWS_H
+
+#include "reliability/reliability.h"
+
+/// Weights and samples of every condition, kept for the differences.
+typedef struct bt_pool_rows {
+    const bt_judged* judged;
+    double* weight; ///< [components * (count + 1)]
+    bt_cut cut[BT_COMPONENT_MAX];
+    int64_t hits[BT_COMPONENT_MAX], samples;
+} bt_pool_rows;
+
+/// @param conditions  components of the mixture
+BT_CHECKED bt_status bt_pool_rows_create(const bt_judged* judged, int conditions,
+                                         bt_pool_rows** made);
+void bt_pool_rows_destroy(bt_pool_rows* rows);
+
+/// Fills the pooled numbers of a row: the reweighted ones, and the corrected ones unless the
+/// condition lies beyond the design and has fresh runs of its own. Component 0 is the study as it
+/// stands, component c + 1 its condition c.
+BT_CHECKED bt_status bt_pool_rows_fill(bt_pool_rows* rows, int component, const bt_sampler* sampler,
+                                       int64_t samples, int threads, bt_reliability_row* row);
+
+/// The differences between neighbouring conditions of one input.
+void bt_pool_rows_differ(const bt_pool_rows* rows, const bt_study* study,
+                         bt_reliability_result* result);
+
+/// Writes down where columns disagree and where the surrogate cannot carry the number.
+void bt_reliability_warn(const bt_surrogate* surrogate, bt_reliability_result* result);
+
+#endif
