@@ -2,6 +2,7 @@
 
 #include "api/case.h"
 #include "pipeline/pipeline.h"
+#include "surrogate/features.h"
 
 static void fill(const bt_surrogate* s, bool fresh, bt_fit_report* report) {
     const bt_surrogate_scores* scores = &s->scores;
@@ -45,8 +46,14 @@ bt_status bt_case_fit(bt_case* opened, const bt_fit_def* def, bt_fit_report* rep
     return BT_OK;
 }
 
+/// The features of the classifier's inputs, which are the axes of the study's design.
+static bt_features features_of(const bt_case* opened) {
+    const bt_axes axes = bt_design_axes(&opened->study);
+    return bt_features_of(&opened->study, axes.input, axes.count);
+}
+
 int bt_case_fit_inputs(const bt_case* opened) {
-    return opened->fitted ? opened->surrogate.dims : 0;
+    return opened->fitted ? features_of(opened).dims : 0;
 }
 
 const char* bt_case_fit_input(const bt_case* opened, int input) {
@@ -57,8 +64,11 @@ bt_status bt_case_predict(const bt_case* opened, const double* points, int count
                           double* decision) {
     if (!opened->fitted)
         return BT_ERR_ARG;
-    for (int i = 0; i < count; ++i)
-        decision[i] = bt_surrogate_decision(&opened->surrogate,
-                                            points + (size_t)i * (size_t)opened->surrogate.dims);
+    const bt_features features = features_of(opened);
+    double extended[BT_INPUT_MAX];
+    for (int i = 0; i < count; ++i) {
+        bt_features_extend(&features, points + (size_t)i * (size_t)features.dims, 1, extended);
+        decision[i] = bt_surrogate_decision(&opened->surrogate, extended);
+    }
     return BT_OK;
 }
