@@ -34,16 +34,18 @@ static bt_status export_table(bt_chain* chain) {
 
 bt_status bt_chain_reliability(bt_chain* chain, bool again, const bt_surrogate* surrogate) {
     const bt_command* command = chain->command;
+    bool fresh = false;
     bt_progress line = bt_progress_start("reliability", command->quiet || command->json);
     const bt_reliability_stage stage = {.again = again,
                                         .files = bt_reliability_files,
                                         .stop = &bt_interrupted,
                                         .watch = show,
                                         .watch_user = &line};
-    BT_TRY(bt_stage_reliability(&chain->directory, surrogate, &stage, NULL));
+    BT_TRY(bt_stage_reliability(&chain->directory, surrogate, &stage, &fresh));
     if (bt_output_kind(command->output) == BT_OUTPUT_TABLE)
         BT_TRY(export_table(chain));
-    return copy_out(chain, command->json ? "reliability.json" : "reliability.txt");
+    BT_TRY(copy_out(chain, command->json ? "reliability.json" : "reliability.txt"));
+    return fresh ? bt_reliability_figures(&chain->study, &chain->diag) : BT_OK;
 }
 
 // --- indices ----------------------------------------------------------------------------------
@@ -135,15 +137,16 @@ const bt_verb bt_verb_reliability = {
     .name = "reliability",
     .summary = "probability of engagement for every condition, with intervals",
     .arguments = "STUDY.yaml",
-    .text = "Draws the study's samples for every condition, asks the surrogate, and checks it "
-            "with fresh landings of the full model drawn from the same distributions. Each "
-            "condition has the surrogate's estimate with its sampling interval, the "
-            "disagreements, and the corrected estimate with an interval that covers both. Trains "
-            "the surrogate first when it is out of date. Writes STUDY/reliability.json and "
-            "reliability.txt.\n\n"
-            "With --indices: for every input, the share of the variance of the surrogate's "
-            "outcomes that it alone explains, and its share with all its interactions. Nothing is "
-            "written.",
+    .text =
+        "Draws the study's samples for every condition, asks the surrogate, and checks it "
+        "with fresh landings of the full model drawn from the same distributions. Each "
+        "condition has the surrogate's estimate with its sampling interval, the "
+        "disagreements, and the corrected estimate with an interval that covers both. Trains "
+        "the surrogate first when it is out of date. Writes STUDY/reliability.json, .csv and .txt "
+        "and draws reliability over each input into STUDY/figures.\n\n"
+        "With --indices: for every input, the share of the variance of the surrogate's "
+        "outcomes that it alone explains, and its share with all its interactions. Nothing is "
+        "written.",
     .options = options,
     .least_words = 1,
     .most_words = 1,

@@ -232,20 +232,34 @@ static bt_status show(sweeping* s, const plan* p, bt_sweep* sweep) {
     return write_figure(s->study, p, sweep, s->folder, &s->diag);
 }
 
-static bt_status run_plan(sweeping* s, const plan* p) {
-    const bt_study* study = s->study;
+static bt_status compute(const bt_study* study, const plan* p, bt_sweep* sweep, bt_diag* diag) {
     const bt_model_params model = sweep_model(study, p->key);
     const bt_field* field = NULL;
     double values[BT_SWEEP_VALUES_MAX];
     size_t offset;
     int count = 0;
+    BT_TRY(bt_sweep_find(&model, p->key, &field, &offset, diag));
+    BT_TRY(bt_sweep_values(field, p->key, p->values, values, &count, diag));
+    return bt_sweep_run(&model, p->key, values, count, (int)study->campaign.threads,
+                        &bt_interrupted, sweep, diag);
+}
+
+static bt_status run_plan(sweeping* s, const plan* p) {
     bt_sweep sweep;
-    BT_TRY(bt_sweep_find(&model, p->key, &field, &offset, &s->diag));
-    BT_TRY(bt_sweep_values(field, p->key, p->values, values, &count, &s->diag));
-    BT_TRY(bt_sweep_run(&model, p->key, values, count, (int)study->campaign.threads,
-                        &bt_interrupted, &sweep, &s->diag));
+    BT_TRY(compute(s->study, p, &sweep, &s->diag));
     const bt_status status = show(s, p, &sweep);
     bt_sweep_destroy(&sweep);
+    return status;
+}
+
+bt_status bt_sweep_figures(const bt_study* study, const char* folder, bt_diag* diag) {
+    bt_status status = BT_OK;
+    for (int i = 0; i < PAPER_COUNT && status == BT_OK; ++i) {
+        bt_sweep sweep;
+        BT_TRY(compute(study, &paper[i], &sweep, diag));
+        status = write_figure(study, &paper[i], &sweep, folder, diag);
+        bt_sweep_destroy(&sweep);
+    }
     return status;
 }
 

@@ -51,8 +51,10 @@ static void put_series_data(FILE* out, const bt_series* series) {
 }
 
 static void put_data(FILE* out, const bt_figure* figure) {
-    fprintf(out, "# %s\n# x: %s\n# y: %s\n", figure->title ? figure->title : figure->name,
-            figure->x_label, figure->y_label);
+    fputs("# ", out);
+    for (const char* c = figure->title ? figure->title : figure->name; *c; ++c)
+        fputc((unsigned char)*c < ' ' ? ' ' : *c, out);
+    fprintf(out, "\n# x: %s\n# y: %s\n", figure->x_label, figure->y_label);
     for (int i = 0; i < figure->series_count; ++i)
         put_series_data(out, &figure->series[i]);
 }
@@ -65,7 +67,7 @@ static void put_quoted(FILE* out, const char* text) {
     for (; text && *text; ++text) {
         if (*text == '\'')
             fputc('\'', out);
-        fputc(*text, out);
+        fputc((unsigned char)*text < ' ' ? ' ' : *text, out);
     }
     fputc('\'', out);
 }
@@ -140,7 +142,9 @@ static void put_plot(FILE* out, const bt_figure* figure) {
 
 static void put_axes(FILE* out, const bt_figure* figure) {
     char text[40];
-    fputs("set xrange [0:", out);
+    if (figure->x_free)
+        fputs("set offsets graph 0.03, graph 0.03, 0, 0\n", out);
+    fprintf(out, "set xrange [%s:", figure->x_free ? "*" : "0");
     bt_text_print_rounded(figure->x_max, 9, text, sizeof text);
     fprintf(out, "%s]\n", figure->x_max > 0 ? text : "*");
     bt_text_print_rounded(figure->y_max, 9, text, sizeof text);
@@ -148,8 +152,20 @@ static void put_axes(FILE* out, const bt_figure* figure) {
             figure->y_max > 0 ? text : "*");
 }
 
+/// For print: across two columns of a page, and in one, without the title that its caption repeats.
+static void put_print(FILE* out, const bt_figure* figure) {
+    fprintf(out,
+            "set terminal pdfcairo size 17.5cm,9cm font 'sans-serif,9' noenhanced\n"
+            "set output '%s.pdf'\nreplot\nset output\n"
+            "unset title\n"
+            "set key outside bottom center horizontal height 0.7 samplen 1.5 spacing 1.1\n"
+            "set terminal pdfcairo size 8.5cm,7cm font 'sans-serif,7' noenhanced\n"
+            "set output '%s-column.pdf'\nreplot\nset output\n",
+            figure->name, figure->name);
+}
+
 static void put_script(FILE* out, const bt_figure* figure) {
-    fprintf(out, "# Draws %s.png and %s.svg: gnuplot %s.gp\n", figure->name, figure->name,
+    fprintf(out, "# Draws %s as .png, .svg, .pdf and -column.pdf: gnuplot %s.gp\n", figure->name,
             figure->name);
     fprintf(out, "data = '%s.csv'\n", figure->name);
     fputs("set datafile separator ','\n"
@@ -178,6 +194,7 @@ static void put_script(FILE* out, const bt_figure* figure) {
             "set terminal svg size 900,560 font 'sans-serif,13' noenhanced background 'white'\n"
             "set output '%s.svg'\nreplot\nset output\n",
             figure->name);
+    put_print(out, figure);
 }
 
 /// Writes one of the two texts under its name.
@@ -280,7 +297,7 @@ static bool script_is_ours(const char* path) {
 
 /// A figure takes the place of one that Bolter drew; other files of its names stay, and are said.
 static bt_status spare_other_files(const bt_figure* figure, const char* folder, bt_diag* diag) {
-    static const char* const endings[] = {".gp", ".csv", ".png", ".svg"};
+    static const char* const endings[] = {".gp", ".csv", ".png", ".svg", ".pdf", "-column.pdf"};
     for (size_t i = 0; i < sizeof endings / sizeof endings[0]; ++i) {
         char name[256], path[BT_FILE_PATH_MAX];
         snprintf(name, sizeof name, "%s%s", figure->name, endings[i]);

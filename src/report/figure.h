@@ -1,5 +1,6 @@
 /// Figures by gnuplot, run as a process. Each figure NAME is three files in one folder: its data
-/// (NAME.csv), the script that draws it (NAME.gp) and the pictures (NAME.png, NAME.svg).
+/// (NAME.csv), the script that draws it (NAME.gp) and the pictures (NAME.png, NAME.svg; for print
+/// NAME.pdf, 17.5 cm wide, and NAME-column.pdf, 8.5 cm wide).
 #ifndef BT_REPORT_FIGURE_H
 #define BT_REPORT_FIGURE_H
 
@@ -32,6 +33,7 @@ typedef struct bt_figure {
     bool ordered;        ///< the series are steps of one quantity: colours from dark to light
     bool key_below;      ///< the key lies under the figure instead of beside it
     bool from_zero;      ///< the y axis begins at 0
+    bool x_free;         ///< the x axis begins where the data do, not at 0
     double x_max, y_max; ///< ends of the axes; 0: found by gnuplot
     int series_count;
     const bt_series* series;

@@ -111,23 +111,9 @@ static void write_reliability(bt_page* page) {
     free(text);
 }
 
-/// Whether the conditions are those that the paper's figures show.
-static bool is_reference(const bt_study* study) {
-    static const char* const paths[] = {"landing.sink_speed", "landing.pitch",
-                                        "landing.horizontal_speed", "landing.distance"};
-    for (size_t k = 0; k < sizeof paths / sizeof paths[0]; ++k) {
-        bool there = false;
-        for (int i = 0; i < study->condition_count; ++i)
-            there = there || strcmp(study->inputs[study->conditions[i].input].path, paths[k]) == 0;
-        if (!there)
-            return false;
-    }
-    return true;
-}
-
 static bt_status write_report(bt_page* page, const void* user) {
     (void)user;
-    bt_json_bool(page->json, "reference_study", is_reference(page->subject->study));
+    bt_json_bool(page->json, "reference_study", bt_study_is_reference(page->subject->study));
     BT_TRY(bt_page_landings_read(page));
     BT_TRY(bt_page_atlas_find(page));
     bt_page_landings_write(page);

@@ -173,8 +173,8 @@ void bt_page_atlas_write(bt_page* page) {
         const bt_input* input = &page->subject->study->inputs[l->axes.input[g->axis]];
         char label[BT_PATH_MAX], region[BT_PATH_MAX + 64];
         double factor;
-        const char* unit = bt_page_unit(input->field, &factor);
-        bt_page_label(input->path, label, sizeof label);
+        const char* unit = bt_display_unit(input->field, &factor);
+        bt_display_label(input->path, label, sizeof label);
         snprintf(region, sizeof region, "%s %.3g to %.3g %s", label, factor * g->least,
                  factor * g->greatest, unit);
         bt_json_begin_object(page->json, NULL);

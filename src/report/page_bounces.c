@@ -6,22 +6,23 @@
 
 /// How the hook bounces over one key, as the paper's Figs. 14 to 16 show it.
 static const struct {
-    const char *key, *caption;
+    const char *key, *caption, *paper;
     int count;
     double values[5]; ///< SI
 } plans[] = {
     {"landing.sink_speed",
-     "The hook's first bounces at four sinking velocities (the paper's Fig. 14: 53 mm and at most "
-     "4 m at 6.3 m/s).",
+     "The hook's first bounces at four sinking velocities",
+     " (the paper's Fig. 14: 53 mm and at most 4 m at 6.3 m/s)",
      4,
      {3.6, 4, 5, 6.3}},
     {"landing.pitch",
-     "The hook's first bounces at five pitch angles (the paper's Fig. 15: 81 mm and 4.57 m at 8 "
-     "deg).",
+     "The hook's first bounces at five pitch angles",
+     " (the paper's Fig. 15: 81 mm and 4.57 m at 8 deg)",
      5,
      {0, 0.03490658503988659, 0.06981317007977318, 0.10471975511965977, 0.13962634015954636}},
     {"landing.horizontal_speed",
-     "The hook's first bounces at four horizontal velocities (the paper's Fig. 16).",
+     "The hook's first bounces at four horizontal velocities",
+     " (the paper's Fig. 16)",
      4,
      {40, 45, 50, 55}},
 };
@@ -50,12 +51,15 @@ static void write_curve(bt_json* json, const bt_sweep_row* row, double factor, c
     bt_json_end_object(json);
 }
 
-static void write_sweep(bt_json* json, const bt_sweep* sweep, int plan) {
+static void write_sweep(bt_json* json, const bt_sweep* sweep, int plan, bool reference) {
     double factor;
-    const char* unit = bt_page_unit(sweep->field, &factor);
+    char caption[256];
+    snprintf(caption, sizeof caption, "%s%s.", plans[plan].caption,
+             reference ? plans[plan].paper : "");
+    const char* unit = bt_display_unit(sweep->field, &factor);
     bt_json_begin_object(json, NULL);
     bt_json_string(json, "key", plans[plan].key);
-    bt_json_string(json, "caption", plans[plan].caption);
+    bt_json_string(json, "caption", caption);
     bt_json_begin_array(json, "curves");
     for (int i = 0; i < sweep->count; ++i)
         if (sweep->rows[i].result.outcome != BT_FAILED)
@@ -80,7 +84,7 @@ bt_status bt_page_bounces_write(bt_page* page) {
                               &sweep, page->diag);
         if (status != BT_OK)
             break;
-        write_sweep(page->json, &sweep, i);
+        write_sweep(page->json, &sweep, i, bt_study_is_reference(page->subject->study));
         bt_sweep_destroy(&sweep);
     }
     bt_json_end_array(page->json);

@@ -81,23 +81,6 @@ void bt_page_landings_destroy(bt_page_landings* l) {
 
 // --- writing ----------------------------------------------------------------------------------
 
-void bt_page_label(const char* path, char* label, size_t size) {
-    const char* dot = strrchr(path, '.');
-    snprintf(label, size, "%s", dot ? dot + 1 : path);
-    for (char* c = label; *c; ++c)
-        if (*c == '_')
-            *c = ' ';
-}
-
-const char* bt_page_unit(const bt_field* field, double* factor) {
-    static const double degrees = 57.29577951308232;
-    *factor = 1;
-    if (strcmp(field->unit, "rad") != 0)
-        return field->unit[0] ? bt_unit_text(field->unit) : "";
-    *factor = degrees;
-    return "deg";
-}
-
 static void write_inputs(bt_page* page) {
     const bt_study* study = page->subject->study;
     bt_json_begin_array(page->json, "inputs");
@@ -105,8 +88,8 @@ static void write_inputs(bt_page* page) {
         const bt_input* input = &study->inputs[page->landings.axes.input[i]];
         char label[BT_PATH_MAX];
         double factor;
-        const char* unit = bt_page_unit(input->field, &factor);
-        bt_page_label(input->path, label, sizeof label);
+        const char* unit = bt_display_unit(input->field, &factor);
+        bt_display_label(input->path, label, sizeof label);
         bt_json_begin_object(page->json, NULL);
         bt_json_string(page->json, "path", input->path);
         bt_json_string(page->json, "label", label);

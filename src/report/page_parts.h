@@ -4,6 +4,7 @@
 #define BT_REPORT_PAGE_PARTS_H
 
 #include "campaign/ledger.h"
+#include "report/display.h"
 #include "report/page.h"
 
 /// The landings of a ledger, column by column.
@@ -52,11 +53,5 @@ BT_CHECKED bt_status bt_page_rigs_write(bt_page* page);     ///< rigs
 BT_CHECKED bt_status bt_page_surrogate_write(bt_page* page);
 
 void bt_page_study_write(bt_page* page); ///< sources, study, versions
-
-/// "sink speed" of "landing.sink_speed".
-void bt_page_label(const char* path, char* label, size_t size);
-
-/// The unit that people use for a field ("deg"), and what an SI value is multiplied with.
-const char* bt_page_unit(const bt_field* field, double* factor);
 
 #endif

@@ -11,7 +11,7 @@ enum { TRACES_MAX = 2, POINTS_MOST = 240 };
 /// A figure of a rig: channels over time or over the stroke.
 typedef struct rig_plot {
     bt_rig_kind kind;
-    const char *name, *caption, *label;
+    const char *name, *caption, *paper, *label;
     double scale;
     bool over_stroke;
     struct {
@@ -22,49 +22,56 @@ typedef struct rig_plot {
 static const rig_plot plots[] = {
     {BT_RIG_NOSE_DROP,
      "stroke",
-     "Nose gear: stroke and sinkage (the paper's Fig. 9).",
+     "Nose gear: stroke and sinkage",
+     " (the paper\'s Fig. 9).",
      "mm",
      1e3,
      false,
      {{"stroke_m", "stroke"}, {"sinkage_m", "sinkage"}}},
     {BT_RIG_NOSE_DROP,
      "tyre",
-     "Nose gear: load of the tyre (the paper's Fig. 10).",
+     "Nose gear: load of the tyre",
+     " (the paper\'s Fig. 10).",
      "kN",
      1e-3,
      false,
      {{"tyre_force_N", "tyre"}}},
     {BT_RIG_MAIN_DROP,
      "stroke",
-     "Main gear: stroke and sinkage (the paper's Fig. 11).",
+     "Main gear: stroke and sinkage",
+     " (the paper\'s Fig. 11).",
      "mm",
      1e3,
      false,
      {{"stroke_m", "stroke"}, {"sinkage_m", "sinkage"}}},
     {BT_RIG_MAIN_DROP,
      "tyre",
-     "Main gear: load of the tyre (the paper's Fig. 12).",
+     "Main gear: load of the tyre",
+     " (the paper\'s Fig. 12).",
      "kN",
      1e-3,
      false,
      {{"tyre_force_N", "tyre"}}},
     {BT_RIG_HOOK_REBOUND,
      "height",
-     "Hook: height of the head above the disc.",
+     "Hook: height of the head above the disc",
+     ".",
      "mm",
      1e3,
      false,
      {{"hook_height_m", "height"}}},
     {BT_RIG_NOSE_STATIC,
      "load",
-     "Nose gear: load over stroke, pressed slowly.",
+     "Nose gear: load over stroke, pressed slowly",
+     ".",
      "kN",
      1e-3,
      true,
      {{"strut_force_N", "shortening"}, {"opening_force_N", "extending"}}},
     {BT_RIG_MAIN_STATIC,
      "load",
-     "Main gear: load over stroke, pressed slowly.",
+     "Main gear: load over stroke, pressed slowly",
+     ".",
      "kN",
      1e-3,
      true,
@@ -106,13 +113,15 @@ static void write_measured(bt_json* json, const rig_plot* plot, const bt_rig_rec
     bt_json_end_array(json);
 }
 
-static void write_plot(bt_json* json, const rig_plot* plot, const bt_rig_record* record,
-                       const bt_rig_curves* curves) {
+static void write_plot(bt_json* json, const rig_plot* plot, bool reference,
+                       const bt_rig_record* record, const bt_rig_curves* curves) {
+    char caption[160];
+    snprintf(caption, sizeof caption, "%s%s", plot->caption, reference ? plot->paper : ".");
     const int across = plot->over_stroke ? column_of(record, "stroke_m") : 0;
     const double x_scale = plot->over_stroke ? 1e3 : 1;
     bt_json_begin_object(json, NULL);
     bt_json_string(json, "name", plot->name);
-    bt_json_string(json, "caption", plot->caption);
+    bt_json_string(json, "caption", caption);
     bt_json_string(json, "label", plot->label);
     bt_json_begin_object(json, "x");
     bt_json_string(json, "label", plot->over_stroke ? "stroke, mm" : "time from first contact, s");
@@ -146,7 +155,7 @@ static void write_metrics(bt_json* json, const bt_rig_result* result) {
     bt_json_end_array(json);
 }
 
-static void write_rig(bt_json* json, bt_rig_kind kind, const bt_rig_record* record,
+static void write_rig(bt_json* json, bt_rig_kind kind, bool reference, const bt_rig_record* record,
                       const bt_rig_result* result, const bt_rig_curves* curves) {
     static const char* const titles[] = {"Drop of the nose gear", "Drop of the main gear",
                                          "Rebound of the hook", "Static test of the nose gear",
@@ -158,7 +167,7 @@ static void write_rig(bt_json* json, bt_rig_kind kind, const bt_rig_record* reco
     bt_json_begin_array(json, "figures");
     for (int i = 0; i < PLOT_COUNT; ++i)
         if (plots[i].kind == kind)
-            write_plot(json, &plots[i], record, curves);
+            write_plot(json, &plots[i], reference, record, curves);
     bt_json_end_array(json);
     bt_json_end_object(json);
 }
@@ -176,7 +185,7 @@ static bt_status run_rig(bt_page* page, bt_rig_kind kind) {
     if (status == BT_OK && record.out_of_memory)
         status = BT_ERR_MEMORY;
     if (status == BT_OK)
-        write_rig(page->json, kind, &record, &result, &curves);
+        write_rig(page->json, kind, bt_study_is_reference(study), &record, &result, &curves);
     bt_rig_record_destroy(&record);
     bt_rig_curves_destroy(&curves);
     return status == BT_ERR_NUMERIC ? BT_OK : status;

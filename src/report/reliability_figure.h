@@ -1,0 +1,15 @@
+/// Reliability over the mean of each input, as pictures: the paper's Figs. 19 to 22.
+#ifndef BT_REPORT_RELIABILITY_FIGURE_H
+#define BT_REPORT_RELIABILITY_FIGURE_H
+
+#include "study/study.h"
+
+/// Draws STUDY/reliability.csv into a folder (bt_figure_write): fig19 to fig22 in the reference
+/// study, else reliability_KEY; corrected with its interval, the classifier alone beside it. They
+/// bear the study's title.
+///
+/// @return BT_OK, also when there is no such file; BT_ERR_IO, BT_ERR_INPUT (a column is missing),
+///         said in diag; BT_ERR_MEMORY
+BT_CHECKED bt_status bt_reliability_draw(const bt_study* study, const char* folder, bt_diag* diag);
+
+#endif
