@@ -38,6 +38,7 @@ run() {
     echo "== $1"
     "$scratch/examples/$@"
 }
+run landing "$study" landing.distance 8
 run drop_test studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv
 "$scratch/static" studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv >"$scratch/a"
 "$scratch/shared" studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv >"$scratch/b"

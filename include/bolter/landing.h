@@ -63,6 +63,31 @@ typedef struct bt_landing_def {
 BT_PUBLIC BT_CHECKED bt_status bt_case_land_watched(bt_case* opened, const bt_landing_def* def,
                                                     bt_landing_report* report);
 
+/// A landing in one's own hands: stepped, looked at, copied, compared. Opaque.
+typedef struct bt_flight bt_flight;
+
+/// The landing of a case as the case is now, at its start; later changes of the case do not touch
+/// it, and it may outlive the case. Flights of one thread at a time each; copies may go to others.
+/// Errors as bt_case_land.
+BT_PUBLIC BT_CHECKED bt_status bt_flight_create(const bt_case* opened, bt_flight** created);
+BT_PUBLIC void bt_flight_destroy(bt_flight* flight); ///< accepts NULL
+
+/// One step of the airframe, with the cable's own steps in it. False once the landing is over:
+/// caught and held a little, past the wire, at rest, or failed; then nothing moves any more.
+BT_PUBLIC bool bt_flight_step(bt_flight* flight);
+
+/// Shows the present state to a watcher, once.
+BT_PUBLIC void bt_flight_look(bt_flight* flight, bt_landing_watch* watch, void* user);
+
+/// A flight of its own in the same state: to try what happens from here on. BT_ERR_MEMORY.
+BT_PUBLIC BT_CHECKED bt_status bt_flight_copy(const bt_flight* flight, bt_flight** copy);
+
+/// Whether a flight and its copy are equal to the bit in what decides how they go on.
+BT_PUBLIC bool bt_flight_equal(const bt_flight* a, const bt_flight* b);
+
+/// What has become of it so far, over or not. BT_ERR_ARG: no size.
+BT_PUBLIC BT_CHECKED bt_status bt_flight_report(const bt_flight* flight, bt_landing_report* report);
+
 /// One quantity of a landing, as `bolter keys --results` lists them. The texts are static.
 typedef struct bt_result_info {
     const char* name; ///< column of the ledger and of a CSV file: "strut_stroke_max_left_m"

@@ -40,6 +40,10 @@ static inline bool bt_def_copy(void* to, size_t known, const void* from, size_t 
 /// The public report of a landing, as much of it as the caller knows. False: its size is missing.
 bool bt_case_report(const bt_landing_result* result, bt_landing_report* report);
 
+/// Hands a view of a landing to a public watcher.
+struct bt_landing_view;
+void bt_case_show_line(const struct bt_landing_view* view, bt_landing_watch* watch, void* user);
+
 /// A numeric key of the model by its path; NULL when there is none, which is said in diag.
 const bt_field* bt_case_number(const bt_case* c, const char* path, size_t* offset, bt_diag* diag);
 

@@ -42,43 +42,42 @@ bool bt_case_report(const bt_landing_result* result, bt_landing_report* report) 
     return true;
 }
 
-/// A watcher, and the names of what it sees.
-typedef struct watching {
-    bt_landing_def def;
+void bt_case_show_line(const bt_landing_view* view, bt_landing_watch* watch, void* user) {
     const char* names[VIEW_MAX];
     double values[VIEW_MAX];
-} watching;
-
-static void show_line(void* user, const bt_landing_view* view) {
-    watching* w = user;
-    for (int i = 0; i < bt_view_column_count; ++i)
-        w->values[i] = bt_view_real(&bt_view_columns[i], view);
+    for (int i = 0; i < bt_view_column_count; ++i) {
+        names[i] = bt_view_columns[i].name;
+        values[i] = bt_view_real(&bt_view_columns[i], view);
+    }
     const bt_landing_line line = {
         .time_s = view->time_s,
         .count = bt_view_column_count,
-        .names = w->names,
-        .values = w->values,
+        .names = names,
+        .values = values,
         .cable_count = view->cable_count,
         .cable_x_m = view->cable_x,
         .cable_y_m = view->cable_y,
         .cable_z_m = view->cable_z,
         .cable_tension_N = view->cable_tension_N,
     };
-    w->def.watch(w->def.user, &line);
+    watch(user, &line);
+}
+
+static void show_line(void* user, const bt_landing_view* view) {
+    const bt_landing_def* def = user;
+    bt_case_show_line(view, def->watch, def->user);
 }
 
 bt_status bt_case_land_watched(bt_case* opened, const bt_landing_def* def,
                                bt_landing_report* report) {
     bt_diag diag = bt_case_diag(opened);
-    watching w;
+    bt_landing_def wanted;
     opened->landed = false;
-    if (!BT_DEF_COPY(w.def, def) || report->size < sizeof report->size)
+    if (!BT_DEF_COPY(wanted, def) || report->size < sizeof report->size)
         return BT_ERR_ARG;
-    for (int i = 0; i < bt_view_column_count; ++i)
-        w.names[i] = bt_view_columns[i].name;
     BT_TRY(bt_group_check(&bt_model_group, &opened->study.model, "", &diag));
     BT_TRY(bt_lander_run(opened->lander, &opened->study.model, &opened->last,
-                         w.def.watch ? show_line : NULL, &w, &diag));
+                         wanted.watch ? show_line : NULL, &wanted, &diag));
     opened->landed = true;
     return bt_case_report(&opened->last, report) ? BT_OK : BT_ERR_ARG;
 }

@@ -264,6 +264,40 @@ static void a_table_of_landings_is_the_same_as_one_at_a_time(void** state) {
     bt_case_close(c);
 }
 
+static void keep_time(void* user, const bt_landing_line* line) {
+    *(double*)user = line->time_s;
+}
+
+static void a_flight_in_ones_own_hands_lands_as_the_case_does(void** state) {
+    (void)state;
+    bt_case* c = open_reference();
+    bt_flight *flight = NULL, *copy = NULL;
+    double early_s = 0, late_s = 0;
+    bt_landing_report whole = {.size = sizeof whole}, stepped = whole, copied = whole;
+    assert_int_equal(bt_case_land(c, &whole), BT_OK);
+    assert_int_equal(bt_flight_create(c, &flight), BT_OK);
+    bt_case_close(c); // it may outlive the case
+    bt_flight_look(flight, keep_time, &early_s);
+    for (int step = 0; step < 100; ++step)
+        assert_true(bt_flight_step(flight));
+    assert_int_equal(bt_flight_copy(flight, &copy), BT_OK);
+    assert_true(bt_flight_equal(flight, copy));
+    assert_true(bt_flight_step(flight));
+    assert_false(bt_flight_equal(flight, copy));
+    while (bt_flight_step(flight))
+        ;
+    bt_flight_look(flight, keep_time, &late_s);
+    assert_true(late_s > early_s + 0.1);
+    assert_int_equal(bt_flight_report(flight, &stepped), BT_OK);
+    bt_flight_destroy(flight); // and its copy may outlive it
+    while (bt_flight_step(copy))
+        ;
+    assert_int_equal(bt_flight_report(copy, &copied), BT_OK);
+    bt_flight_destroy(copy);
+    assert_true(stepped.state_hash == whole.state_hash && copied.state_hash == whole.state_hash);
+    assert_true(stepped.engaged == whole.engaged && stepped.margin_m == whole.margin_m);
+}
+
 static bool count_result(void* user, const bt_result_info* info) {
     assert_true(info->name[0] && info->text[0] && info->unit);
     ++*(int*)user;
@@ -355,6 +389,7 @@ static void a_campaign_runs_stops_goes_on_and_is_read_and_fitted(void** state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_table_of_landings_is_the_same_as_one_at_a_time),
+        cmocka_unit_test(a_flight_in_ones_own_hands_lands_as_the_case_does),
         cmocka_unit_test(the_numbers_of_a_landing_are_asked_for_by_name),
         cmocka_unit_test(an_older_client_gets_what_it_knows),
         cmocka_unit_test(a_campaign_runs_stops_goes_on_and_is_read_and_fitted),
