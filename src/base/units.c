@@ -39,18 +39,26 @@ static const unit_symbol symbols[] = {
     {"um", 1, 1e6, 1, 0, 0, 0},
     {"in", 254, 1e4, 1, 0, 0, 0},
     {"inch", 254, 1e4, 1, 0, 0, 0},
+    {"inches", 254, 1e4, 1, 0, 0, 0},
     {"ft", 3048, 1e4, 1, 0, 0, 0},
+    {"foot", 3048, 1e4, 1, 0, 0, 0},
+    {"feet", 3048, 1e4, 1, 0, 0, 0},
     {"nmi", 1852, 1, 1, 0, 0, 0},
     {"s", 1, 1, 0, 0, 1, 0},
+    {"sec", 1, 1, 0, 0, 1, 0},
     {"ms", 1, 1e3, 0, 0, 1, 0},
+    {"msec", 1, 1e3, 0, 0, 1, 0},
     {"us", 1, 1e6, 0, 0, 1, 0},
     {"min", 60, 1, 0, 0, 1, 0},
     {"h", 3600, 1, 0, 0, 1, 0},
+    {"hr", 3600, 1, 0, 0, 1, 0},
     {"kg", 1, 1, 0, 1, 0, 0},
     {"g", 1, 1e3, 0, 1, 0, 0},
     {"t", 1e3, 1, 0, 1, 0, 0},
     {"lb", 45359237, 1e8, 0, 1, 0, 0},
+    {"lbs", 45359237, 1e8, 0, 1, 0, 0},
     {"lbm", 45359237, 1e8, 0, 1, 0, 0},
+    {"slugs", 44482216152605, 3048e9, 0, 1, 0, 0},
     {"slug", 44482216152605, 3048e9, 0, 1, 0, 0},
     {"N", 1, 1, 1, 1, -2, 0},
     {"kN", 1e3, 1, 1, 1, -2, 0},
@@ -70,15 +78,23 @@ static const unit_symbol symbols[] = {
     {"psi", 44482216152605, 64516e5, -1, 1, -2, 0},
     {"ksi", 44482216152605, 64516e2, -1, 1, -2, 0},
     {"atm", 101325, 1, -1, 1, -2, 0},
+    {"mmHg", 133322387415, 1e9, -1, 1, -2, 0}, // 13.5951 g/cm^3 under g_n
+    {"inHg", 3386388640341, 1e9, -1, 1, -2, 0},
     {"kn", 1852, 3600, 1, 0, -1, 0},
+    {"kt", 1852, 3600, 1, 0, -1, 0},
+    {"kts", 1852, 3600, 1, 0, -1, 0},
+    {"knots", 1852, 3600, 1, 0, -1, 0},
+    {"mph", 1609344, 3600e3, 1, 0, -1, 0},
     {"fps", 3048, 1e4, 1, 0, -1, 0},
     {"rad", 1, 1, 0, 0, 0, 1},
     {"mrad", 1, 1e3, 0, 0, 0, 1},
     {"deg", M_PI, 180, 0, 0, 0, 1},
+    {"degrees", M_PI, 180, 0, 0, 0, 1},
     {"rpm", M_PI, 30, 0, 0, -1, 1},
     {"L", 1, 1e3, 3, 0, 0, 0},
     {"mL", 1, 1e6, 3, 0, 0, 0},
     {"cc", 1, 1e6, 3, 0, 0, 0},
+    {"gal", 3785411784, 1e12, 3, 0, 0, 0}, // US, 231 in^3
     {"J", 1, 1, 2, 1, -2, 0},
     {"kJ", 1e3, 1, 2, 1, -2, 0},
     {"MJ", 1e6, 1, 2, 1, -2, 0},
@@ -128,6 +144,8 @@ static const unit_token tokens[] = {
     {"Nmsprad", "N m s/rad", "N m s/rad, kN m s/rad or lbf ft s/rad"},
     {"Nprad", "N/rad", "N/rad, kN/rad or N/deg"},
     {"Pa", "Pa", "Pa, kPa, MPa, bar, mbar or psi"},
+    {"Pa_absolute", "Pa", "Pa, kPa, MPa, bar or psi (absolute), psig or barg"},
+    {"Pa_gauge", "Pa", "Pa, kPa, MPa, bar or psi (gauge), psia or bara"},
     {"Paps", "Pa/s", "Pa/s or bar/s"},
     {"Pas", "Pa s", "Pa s"},
     {"mps", "m/s", "m/s, km/h, kn, ft/s or ft/min"},
@@ -145,9 +163,9 @@ static const unit_token tokens[] = {
 
 // --- the grammar of a typed unit ------------------------------------------------------------
 // unit    = product { "/" factor }        after a slash one factor only: write N/(m s)
-// product = factor { [" " | "*"] factor }
-// factor  = ( symbol | "(" unit ")" | "1" ) [ ["^"] exponent ]
-// exponent without "^": one digit ("m2"); with it also -1, 0.5, 1.5
+// product = factor { [" " | "*" | "." | "-"] factor }
+// factor  = ( ["cu " | "sq "] symbol | "(" unit ")" | "1" ) [ ["^"] exponent ]
+// exponent without "^": one digit ("m2", "s-1"); with it also 0.5, 1.5
 
 static void multiply(unit* u, const unit* by, int halves) {
     const double power = abs(halves) / 2.0;
@@ -168,13 +186,22 @@ static bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-static const char* parse_symbol(const char* p, unit* u) {
+static size_t word_length(const char* p) {
     size_t length = 0;
     while (is_letter(p[length]))
         ++length;
+    return length;
+}
+
+static bool is_word(const char* p, size_t length, const char* word) {
+    return strlen(word) == length && memcmp(word, p, length) == 0;
+}
+
+static const char* parse_symbol(const char* p, unit* u) {
+    const size_t length = word_length(p);
     for (size_t i = 0; i < sizeof symbols / sizeof symbols[0]; ++i) {
         const unit_symbol* s = &symbols[i];
-        if (strlen(s->name) == length && memcmp(s->name, p, length) == 0) {
+        if (is_word(p, length, s->name)) {
             *u = (unit){s->scale,
                         s->divisor,
                         {(signed char)(2 * s->length), (signed char)(2 * s->mass),
@@ -185,11 +212,24 @@ static const char* parse_symbol(const char* p, unit* u) {
     return NULL;
 }
 
+/// "cu in", "sq ft": the exponent stands first. 0: neither, and nothing is skipped.
+static int leading_exponent(const char** p) {
+    const size_t length = word_length(*p);
+    const int exponent = is_word(*p, length, "cu") ? 3 : is_word(*p, length, "sq") ? 2 : 0;
+    if (exponent)
+        *p = skip_blanks(*p + length + ((*p)[length] == '.'));
+    return exponent;
+}
+
 static const char* parse_exponent(const char* p, int* halves) {
     *halves = 2;
     if (*p >= '1' && *p <= '9') {
         *halves = 2 * (*p - '0');
         return p + 1;
+    }
+    if (*p == '-' && p[1] >= '1' && p[1] <= '9') {
+        *halves = -2 * (p[1] - '0');
+        return p + 2;
     }
     if (*p != '^')
         return p;
@@ -206,6 +246,7 @@ static const char* parse_unit(const char* p, unit* u, int depth);
 
 static const char* parse_factor(const char* p, unit* into, int sign, int depth) {
     unit u = {.scale = 1, .divisor = 1};
+    const int leading = leading_exponent(&p);
     if (*p == '(') {
         p = depth < 4 ? parse_unit(p + 1, &u, depth + 1) : NULL;
         if (!p || *p != ')')
@@ -218,8 +259,10 @@ static const char* parse_factor(const char* p, unit* into, int sign, int depth) 
     }
     int halves;
     p = p ? parse_exponent(p, &halves) : NULL;
-    if (!p)
+    if (!p || (leading && halves != 2))
         return NULL;
+    if (leading)
+        halves = 2 * leading;
     for (int i = 0; i < DIMENSIONS; ++i)
         if (u.halves[i] * halves % 2 != 0 || abs(into->halves[i] + u.halves[i] * halves / 2) > 60)
             return NULL;
@@ -232,7 +275,8 @@ static const char* parse_unit(const char* p, unit* u, int depth) {
     for (p = parse_factor(skip_blanks(p), u, 1, depth); p;) {
         const char* next = skip_blanks(p);
         const bool slash = *next == '/';
-        if (slash || *next == '*')
+        const bool joined = (*next == '.' || *next == '-') && is_letter(next[1]); // N.m, lbf-ft
+        if (slash || *next == '*' || joined)
             next = skip_blanks(next + 1);
         else if (!is_letter(*next) && *next != '(')
             return next;
@@ -306,14 +350,75 @@ static const char* number_fault(const char* start, const char* end, double numbe
     return NULL;
 }
 
-/// psig, psia, barg and the like say more than a unit does.
-static bool tells_gauge_from_absolute(const char* unit_text) {
-    static const char* const names[] = {"psig", "psia", "barg", "bara", "kPag", "kPaa"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
-        if (strncmp(unit_text, names[i], 4) == 0)
-            return true;
-    return false;
+// --- gauge and absolute pressure ------------------------------------------------------------
+
+static const double standard_atmosphere_Pa = 101325;
+
+/// Cuts "psig" to "psi" and returns 'g'; '\0' where a unit does not say of which kind it is.
+static char strip_pressure_kind(char* unit_text) {
+    static const char* const names[] = {"psi", "bar", "kPa", "MPa", "ksi"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        const char kind = strncmp(unit_text, names[i], 3) == 0 ? unit_text[3] : '\0';
+        if ((kind == 'g' || kind == 'a') && *skip_blanks(unit_text + 4) == '\0') {
+            unit_text[3] = '\0';
+            return kind;
+        }
+    }
+    return '\0';
 }
+
+/// What a pressure of a kind needs to become one of the token's, Pa; NAN: the token has no kind.
+static double pressure_offset(char kind, const char* token) {
+    if (kind == '\0')
+        return 0;
+    if (strcmp(token, "Pa_absolute") == 0)
+        return kind == 'g' ? standard_atmosphere_Pa : 0;
+    if (strcmp(token, "Pa_gauge") == 0)
+        return kind == 'g' ? 0 : -standard_atmosphere_Pa;
+    return NAN;
+}
+
+// --- what was meant -------------------------------------------------------------------------
+
+/// The symbol that a word in another case, or with an s too many, stands for; NULL. A wrong letter
+/// makes another unit too easily ("grad" is no "mrad").
+static const char* meant_symbol(const char* word, size_t length) {
+    for (size_t i = 0; i < sizeof symbols / sizeof symbols[0]; ++i) {
+        const char* name = symbols[i].name;
+        const bool plural = strlen(name) + 1 == length && word[length - 1] == 's';
+        if ((plural || strlen(name) == length) && strncasecmp(name, word, strlen(name)) == 0)
+            return name;
+    }
+    return NULL;
+}
+
+/// What a word of a unit is better written as; NULL: as it is. `forces`: pounds of mass as force.
+static const char* better_word(const char* word, size_t length, bool forces) {
+    unit ignored;
+    if (forces)
+        return is_word(word, length, "lb") || is_word(word, length, "lbs") ? "lbf" : NULL;
+    return length > 0 && !parse_symbol(word, &ignored) ? meant_symbol(word, length) : NULL;
+}
+
+/// ' (did you mean "kN"?)', or "" when nothing near has the wanted dimension.
+static void suggest(const char* unit_text, const unit* wanted, char* text, size_t size) {
+    char better[64] = "";
+    unit u;
+    const bool forces = unit_from_text(unit_text, &u);
+    for (const char* p = unit_text; *p;) {
+        const size_t length = word_length(p) ? word_length(p) : 1;
+        const char* word = better_word(p, word_length(p), forces);
+        bt_text_append(better, sizeof better, "%.*s", word ? (int)strlen(word) : (int)length,
+                       word ? word : p);
+        p += length;
+    }
+    *text = '\0';
+    if (strcmp(better, unit_text) != 0 && unit_from_text(better, &u) &&
+        memcmp(u.halves, wanted->halves, sizeof u.halves) == 0)
+        snprintf(text, size, " (did you mean \"%s\"?)", better);
+}
+
+// --- a number with its unit -----------------------------------------------------------------
 
 static const char* unit_fault(const char* unit_text, const unit* wanted, unit* typed) {
     const bool plain = memcmp(wanted->halves, (signed char[DIMENSIONS]){0}, DIMENSIONS) == 0;
@@ -321,9 +426,6 @@ static const char* unit_fault(const char* unit_text, const unit* wanted, unit* t
         return plain ? NULL : "has no unit";
     if (plain)
         return "is wanted without a unit";
-    if (tells_gauge_from_absolute(unit_text))
-        return "tells gauge from absolute pressure, which the key's meaning does here (a "
-               "precharge is absolute, a tyre's pressure is gauge): leave out its last letter";
     if (!unit_from_text(unit_text, typed))
         return "has no known unit";
     if (memcmp(wanted->halves, typed->halves, DIMENSIONS) != 0)
@@ -331,35 +433,57 @@ static const char* unit_fault(const char* unit_text, const unit* wanted, unit* t
     return NULL;
 }
 
+/// What was typed, taken apart.
+typedef struct quantity {
+    double number, offset; ///< SI = number * unit + offset
+    char unit_text[TYPED_SIZE];
+    unit unit;
+} quantity;
+
+/// What is wrong with a text as a quantity, or NULL.
+static const char* take_apart(const char* start, const char* token, const unit* wanted,
+                              quantity* q) {
+    const char* end = bt_text_scan_number(start, &q->number);
+    const char* fault = number_fault(start, end, q->number);
+    if (fault)
+        return fault;
+    end = skip_blanks(end);
+    if (strlen(end) >= sizeof q->unit_text)
+        return "has no known unit";
+    snprintf(q->unit_text, sizeof q->unit_text, "%s", end);
+    q->offset = pressure_offset(strip_pressure_kind(q->unit_text), token);
+    if (isnan(q->offset))
+        return "tells gauge from absolute pressure, which means nothing here: leave out its last "
+               "letter";
+    fault = unit_fault(q->unit_text, wanted, &q->unit);
+    if (!fault && !isfinite(q->number * q->unit.scale / q->unit.divisor))
+        return "is not a finite number";
+    return fault;
+}
+
 bt_status bt_unit_parse(const char* text, const char* token, double* value, char* why,
                         size_t why_size) {
     const unit_token* t = find_token(token);
-    unit wanted, typed = {.scale = 1, .divisor = 1};
+    unit wanted;
     if (!t || !unit_from_text(t->text, &wanted)) {
         snprintf(why, why_size, "unit token \"%s\" is not in the table", token);
         return BT_ERR_INPUT;
     }
-    char plain[TYPED_SIZE];
+    char plain[TYPED_SIZE], meant[96] = "";
+    quantity q = {.unit = {.scale = 1, .divisor = 1}};
     const char* start = skip_blanks(plain_text(text, plain));
+    const char* fault = take_apart(start, token, &wanted, &q);
+    if (!fault) {
+        *value = q.number * q.unit.scale / q.unit.divisor + q.offset;
+        return BT_OK;
+    }
     int length = (int)strlen(start);
     while (length > 0 && (start[length - 1] == ' ' || start[length - 1] == '\t'))
         --length;
-
-    double number = 0;
-    const char* end = bt_text_scan_number(start, &number);
-    const char* fault = number_fault(start, end, number);
-    if (!fault)
-        fault = unit_fault(skip_blanks(end), &wanted, &typed);
-    const double si = number * typed.scale / typed.divisor;
-    if (!fault && !isfinite(si))
-        fault = "is not a finite number";
-    if (fault) {
-        snprintf(why, why_size, "\"%.*s\" %s; use %s", length < 60 ? length : 60, start, fault,
-                 t->use);
-        return BT_ERR_INPUT;
-    }
-    *value = si;
-    return BT_OK;
+    suggest(q.unit_text, &wanted, meant, sizeof meant);
+    snprintf(why, why_size, "\"%.*s\" %s%s; use %s", length < 60 ? length : 60, start, fault, meant,
+             t->use);
+    return BT_ERR_INPUT;
 }
 
 void bt_unit_print(double value, const char* token, char* text, size_t size) {

@@ -12,7 +12,7 @@
     F(REAL, precharge, Pa, REQUIRED, 11.0e6, 1e3, 1e9, "Eq. 9", "P_0: absolute gas pressure, damper extended") \
     F(REAL, air_volume, m3, REQUIRED, 3.0e-3, 1e-8, 10, "Eq. 9", "V_0: gas volume, damper extended") \
     F(PLAIN, gas_exponent, _, OPTIONAL, 1.2, 1, 1.7, "Eq. 9", "n: polytropic exponent of the gas") \
-    F(REAL, ambient, Pa, OPTIONAL, 101325, 0, 2e5, "Eq. 9", "P_atm: ambient pressure") \
+    F(REAL, ambient, Pa, OPTIONAL, 101325, 0, 2e5, "Eq. 9", "P_atm: absolute ambient pressure") \
     F(REAL, oil_area, m2, REQUIRED, 1.6e-3, 1e-7, 10, "Eq. 9", "A_Zh: area that pushes oil through the orifice") \
     F(REAL, orifice_area, m2, REQUIRED, 2.9798e-5, 1e-9, 1, "Eq. 9", "A_Zd: orifice; the fallback gives 4695 N s^2/m^2") \
     F(REAL, rebound_area, m2, OPTIONAL, 0, 0, 1, "Eq. 9", "orifice while the damper extends; 0: as in compression") \

@@ -12,7 +12,7 @@
     F(REAL, precharge, Pa, REQUIRED, 11.0e6, 1e3, 1e9, "Eq. 3", "P_0: absolute gas pressure, damper extended") \
     F(REAL, air_volume, m3, REQUIRED, 3.0e-3, 1e-8, 10, "Eq. 3", "V_0: gas volume, damper extended") \
     F(PLAIN, gas_exponent, _, OPTIONAL, 1.2, 1, 1.7, "Eq. 3", "n: polytropic exponent of the gas") \
-    F(REAL, ambient, Pa, OPTIONAL, 101325, 0, 2e5, "Eq. 3", "P_atm: ambient pressure") \
+    F(REAL, ambient, Pa, OPTIONAL, 101325, 0, 2e5, "Eq. 3", "P_atm: absolute ambient pressure") \
     F(REAL, damping, Npmps, REQUIRED, 5000, 0, 1e8, "", "c: damping force over the rate while the damper shortens") \
     F(REAL, rebound_damping, Npmps, OPTIONAL, 0, 0, 1e8, "", "the same while it extends; 0: as in compression") \
     F(REAL, stroke_max, m, OPTIONAL, 0.6, 1e-3, 10, "Eq. 5", "full stroke [assumed]") \

@@ -21,7 +21,7 @@ enum { BT_SPRING_GAS, BT_SPRING_POINTS };
     F(REAL, precharge, Pa, REQUIRED, 2.8e6, 0, 1e9, "Eq. 3", "P_0: absolute gas pressure, strut extended") \
     F(REAL, air_volume, m3, REQUIRED, 8.04e-3, 0, 10, "Eq. 3", "V_0: gas volume, strut extended") \
     F(PLAIN, gas_exponent, _, OPTIONAL, 1.15, 1, 1.7, "Eq. 3", "n: polytropic exponent of the gas") \
-    F(REAL, ambient, Pa, OPTIONAL, 101325, 0, 2e5, "Eq. 3", "P_atm: ambient pressure") \
+    F(REAL, ambient, Pa, OPTIONAL, 101325, 0, 2e5, "Eq. 3", "P_atm: absolute ambient pressure") \
     F(REAL, high_precharge, Pa, OPTIONAL, 0, 0, 1e9, "", "P_02: absolute pressure at which the floating piston of a second chamber lifts; 0: no second chamber") \
     F(REAL, high_volume, m3, OPTIONAL, 0, 0, 10, "", "V_02: gas volume of the second chamber before it lifts") \
     F(PLAIN, high_exponent, _, OPTIONAL, 0, 0, 1.7, "", "n_2: polytropic exponent of the second chamber; 0: gas_exponent") \

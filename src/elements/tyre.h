@@ -16,7 +16,7 @@ enum { BT_TYRE_SMILEY_HORNE, BT_TYRE_POINTS, BT_TYRE_POWER };
     F(COUNT, tyres, _, OPTIONAL, 1, 1, 16, "", "tyres side by side on the axle; the load of the law is that of one") \
     F(CHOICE, law, bt_tyre_law_names, OPTIONAL, 0, 0, 0, "", "load over deflection: smiley_horne (from size and pressure), points, power") \
     F(REAL, pressure, Pa, OPTIONAL, 2.41e6, 1e4, 1e8, "", "p: inflation pressure (gauge)") \
-    F(REAL, rated_pressure, Pa, OPTIONAL, 1.7e6, 1e4, 1e8, "", "p_r: rated pressure [assumed]") \
+    F(REAL, rated_pressure, Pa, OPTIONAL, 1.7e6, 1e4, 1e8, "", "p_r: rated pressure (gauge) [assumed]") \
     F(PLAIN, vertical_constant, _, OPTIONAL, 0.03, 1e-3, 0.5, "", "C_z of NASA TR R-64: 0.03 for types III and VII, 0.02 for type I") \
     F(TABLE, load_points, m__N, OPTIONAL, 0, 0, 0, "", "load of one tyre over deflection, increasing from above (0, 0), which is implied") \
     F(REAL, power_deflection, m, OPTIONAL, 0.1, 1e-6, 5, "", "power law: deflection d_0 at power_load [assumed]") \

@@ -196,6 +196,7 @@ static void report_range(bt_reader* reader, const bt_field* field, const bt_node
     } else {
         bt_unit_print_as(field->least, node->text, least, sizeof least, &unit);
         bt_unit_print_as(field->greatest, node->text, greatest, sizeof greatest, &unit);
+        unit = *unit ? unit : bt_unit_text(field->unit); // psig and the like have no scale alone
     }
     bt_reader_error(reader, node->where, "%s: %.*s is outside %s .. %s%s%s", path, SHOWN,
                     node->text, least, greatest, *unit ? " " : "", unit);
@@ -226,10 +227,22 @@ static bool read_whole(bt_reader* reader, const bt_node* node, const char* path,
     return false;
 }
 
+/// The unit token of a field's values. Of a pressure, the field's text says whether it is absolute
+/// or gauge; a difference of two (a standard deviation) is neither.
+static const char* level_token(const bt_field* field) {
+    if (strcmp(field->unit, "Pa") != 0)
+        return field->unit;
+    return strstr(field->text, "absolute") ? "Pa_absolute"
+           : strstr(field->text, "gauge")  ? "Pa_gauge"
+                                           : field->unit;
+}
+
 bool bt_reader_number(bt_reader* reader, const bt_field* field, const bt_node* node,
                       const char* path, bool ranged, double* value) {
     double number;
-    const char* token = field->kind == BT_FIELD_PLAIN ? "1" : field->unit;
+    const char* token = field->kind == BT_FIELD_PLAIN ? "1"
+                        : ranged                      ? level_token(field)
+                                                      : field->unit;
     const bool read = field->kind == BT_FIELD_COUNT ? read_whole(reader, node, path, &number)
                                                     : read_unit(reader, token, node, path, &number);
     if (!read)

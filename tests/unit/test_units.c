@@ -105,6 +105,22 @@ static void every_unit_is_one_exact_factor(void** state) {
         {"2 dm^3", "m3", 2e-3},
         {"10 inch", "m", 0.254},
         {"7 fps", "mps", 7 * 3048 / 1e4},
+        {"7700 lbs", "kg", 7700 * 45359237.0 / 1e8},
+        {"10 ft/sec", "mps", 3.048},
+        {"203 cu in", "m3", 203 * 16387064.0 / 1e12},
+        {"203 cu. in", "m3", 203 * 16387064.0 / 1e12},
+        {"4 sq ft", "m2", 4 * 9290304.0 / 1e8},
+        {"135 kt", "mps", 135 * 1852 / 3600.0},
+        {"135 kts", "mps", 135 * 1852 / 3600.0},
+        {"760 mmHg", "Pa", 760 * 133322387415.0 / 1e9},
+        {"1 gal", "m3", 3785411784 / 1e12},
+        {"20 N\u00b7m", "Nm", 20},
+        {"20 N.m", "Nm", 20},
+        {"20 lbf-ft", "Nm", 20 * (44482216152605.0 * 3048) / 1e17},
+        {"3 m\u00b7s-1", "mps", 3},
+        {"3 m s-1", "mps", 3},
+        {"9.81 m/s\u00b2", "mps2", 9.81},
+        {"60 mph", "mps", 60 * 1609344 / 3600e3},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i)
         assert_reads(rows[i].text, rows[i].token, rows[i].value);
@@ -146,7 +162,9 @@ static void what_is_no_value_is_refused_with_what_would_do(void** state) {
         const char *text, *what;
     } rows[] = {
         {"18 foo", "has no known unit"},
-        {"18 pa", "has no known unit"},
+        {"18 pa", "has no known unit (did you mean \"Pa\"?)"},
+        {"18 KPA", "has no known unit (did you mean \"kPa\"?)"},
+        {"18 lbs/in^2", "has a unit of another dimension (did you mean \"lbf/in^2\"?)"},
         {"18 N/m m", "has no known unit"},
         {"18 Pa^", "has no known unit"},
         {"18 (Pa", "has no known unit"},
@@ -171,13 +189,42 @@ static void what_is_no_value_is_refused_with_what_would_do(void** state) {
         snprintf(want, sizeof want, "\"%s\" %s; %s", rows[i].text, rows[i].what, pa);
         assert_refused(rows[i].text, "Pa", want);
     }
-    snprintf(want, sizeof want,
-             "\"30 psig\" tells gauge from absolute pressure, which the key's meaning does here (a "
-             "precharge is absolute, a tyre's pressure is gauge): leave out its last letter; %s",
-             pa);
+    snprintf(
+        want, sizeof want,
+        "\"30 psig\" tells gauge from absolute pressure, which means nothing here: leave out its "
+        "last letter; %s",
+        pa);
     assert_refused("30 psig", "Pa", want);
     assert_refused("7 kg", "1", "\"7 kg\" is wanted without a unit; use a plain number");
     assert_refused("7", "foo", "unit token \"foo\" is not in the table");
+}
+
+static void gauge_pressures_become_what_the_key_means(void** state) {
+    (void)state;
+    const double psi275 = 275 * (44482216152605.0 / 64516e5);
+    double got;
+    char why[256];
+    assert_int_equal(bt_unit_parse("275 psig", "Pa_absolute", &got, why, sizeof why), BT_OK);
+    BT_ASSERT_NEAR(got, psi275 + 101325, 1e-15, 0);
+    assert_int_equal(bt_unit_parse("275 psia", "Pa_absolute", &got, why, sizeof why), BT_OK);
+    BT_ASSERT_NEAR(got, psi275, 1e-15, 0);
+    assert_int_equal(bt_unit_parse("275 psig ", "Pa_gauge", &got, why, sizeof why), BT_OK);
+    BT_ASSERT_NEAR(got, psi275, 1e-15, 0);
+    assert_reads("10 bara", "Pa_gauge", 10e5 - 101325);
+    assert_reads("10 barg", "Pa_absolute", 10e5 + 101325);
+    assert_reads("10 bar", "Pa_absolute", 10e5);
+    assert_reads("10 bar", "Pa_gauge", 10e5);
+}
+
+static void what_was_meant_is_said_only_where_it_fits(void** state) {
+    (void)state;
+    assert_refused(
+        "7700 lb", "N",
+        "\"7700 lb\" has a unit of another dimension (did you mean \"lbf\"?); use N, daN, "
+        "kN, MN, kgf, lbf or kip");
+    assert_refused("7 MPA", "m", "\"7 MPA\" has no known unit; use m, mm, cm, in or ft");
+    assert_refused("3 sq in2", "m2",
+                   "\"3 sq in2\" has no known unit; use m^2, cm^2, mm^2, in^2 or ft^2");
 }
 
 static void an_angle_is_never_taken_for_a_number_or_a_moment_for_a_stiffness(void** state) {
@@ -355,6 +402,8 @@ int main(void) {
         cmocka_unit_test(derived_imperial_units_follow_from_their_definitions),
         cmocka_unit_test(a_unit_may_be_written_in_several_ways),
         cmocka_unit_test(what_is_no_value_is_refused_with_what_would_do),
+        cmocka_unit_test(gauge_pressures_become_what_the_key_means),
+        cmocka_unit_test(what_was_meant_is_said_only_where_it_fits),
         cmocka_unit_test(an_angle_is_never_taken_for_a_number_or_a_moment_for_a_stiffness),
         cmocka_unit_test(printed_values_read_back_to_the_same_bits),
         cmocka_unit_test(values_print_in_the_unit_that_was_typed),
