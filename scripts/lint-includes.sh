@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 floors=(base mechanics elements cable landing rigs study campaign statistics surrogate reliability
-    calibration pipeline report api cli)
+    calibration pipeline report api cluster cli)
 declare -A height
 for i in "${!floors[@]}"; do height[${floors[i]}]=$i; done
 

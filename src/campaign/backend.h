@@ -9,6 +9,9 @@
 
 #include "campaign/executor.h"
 
+/// Jobs in hand per thread: a landing takes milliseconds, and the next must be there when it ends.
+enum { BT_JOBS_PER_THREAD = 8 };
+
 /// A job that has left the back end.
 typedef struct bt_finished {
     bt_job job;
@@ -18,7 +21,7 @@ typedef struct bt_finished {
     char message[256]; ///< of a status that ends the batch
 } bt_finished;
 
-typedef struct bt_backend {
+struct bt_backend {
     const char* name;
 
     /// Gets ready for the landings of an executor, which outlives the state. `room` receives how
@@ -36,7 +39,7 @@ typedef struct bt_backend {
     int (*cancel)(void* state, bool abandon);
 
     void (*close)(void* state);
-} bt_backend;
+};
 
 /// Landings on threads of this process, each with its own lander and its own copy of the model.
 extern const bt_backend bt_thread_backend;

@@ -102,6 +102,7 @@ static bt_status run_round(campaign* c, const bt_study* study) {
         .sink = store,
         .pulse = pulse,
         .user = c,
+        .backend = c->options->backend,
     };
     c->next = c->begin;
     const bt_status status = bt_executor_run(&executor, c->diag);

@@ -28,10 +28,11 @@ typedef struct bt_campaign_rounds {
 } bt_campaign_rounds;
 
 typedef struct bt_campaign_options {
-    int shard, shards;        ///< runs with run % shards == shard; shards 0 or 1: all
-    int threads;              ///< 0: what the study says
-    const atomic_int* stop;   ///< may be NULL; not 0: finish what is in flight
-    bt_campaign_watch* watch; ///< may be NULL; called about five times a second and at the end
+    int shard, shards;         ///< runs with run % shards == shard; shards 0 or 1: all
+    int threads;               ///< 0: what the study says
+    const atomic_int* stop;    ///< may be NULL; not 0: finish what is in flight
+    const bt_backend* backend; ///< NULL: threads
+    bt_campaign_watch* watch;  ///< may be NULL; called about five times a second and at the end
     void* user;
     const bt_campaign_rounds* rounds; ///< NULL: the design's own points, all at once
 } bt_campaign_options;

@@ -27,7 +27,7 @@ typedef bt_status bt_job_pulse(void* user);
 /// time as others: it may only look up what belongs to this job.
 typedef void* bt_job_observed(void* user, const bt_job* job);
 
-struct bt_backend;
+typedef struct bt_backend bt_backend;
 
 typedef struct bt_executor {
     const bt_model_params* model; ///< what every landing shares
@@ -39,11 +39,11 @@ typedef struct bt_executor {
     const atomic_int* stop;
     bt_job_source* source;
     bt_job_sink* sink;
-    bt_job_pulse* pulse;              ///< may be NULL
-    bt_landing_observer* observer;    ///< may be NULL; needs a back end in this process
-    bt_job_observed* observed;        ///< its user, for each job
-    void* user;                       ///< of source, sink, pulse and observed
-    const struct bt_backend* backend; ///< NULL: threads
+    bt_job_pulse* pulse;           ///< may be NULL
+    bt_landing_observer* observer; ///< may be NULL; needs a back end in this process
+    bt_job_observed* observed;     ///< its user, for each job
+    void* user;                    ///< of source, sink, pulse and observed
+    const bt_backend* backend;     ///< NULL: threads
 } bt_executor;
 
 /// Runs every job. What a job's own numbers make impossible is a result, not an error: a landing

@@ -7,9 +7,6 @@
 #include <string.h>
 #include <time.h>
 
-/// Jobs in hand per thread: a landing takes milliseconds, and the next must be there when it ends.
-enum { JOBS_PER_THREAD = 8 };
-
 /// What one thread needs for its landings.
 typedef struct scratch {
     bt_lander* lander;
@@ -124,7 +121,7 @@ static bt_status open_threads(const bt_executor* executor, void** state, int* ro
         return BT_ERR_MEMORY;
     t->executor = executor;
     t->count = bt_thread_count(executor->threads);
-    *room = t->room = JOBS_PER_THREAD * t->count;
+    *room = t->room = BT_JOBS_PER_THREAD * t->count;
     prepare_locks(t);
     bt_status status = prepare_scratch(t);
     if (status == BT_OK) {

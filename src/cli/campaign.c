@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { OPTION_SHARD, OPTION_TIME_LIMIT };
+
 /// "2/8" -> shard 1 of 8 (counted from 0).
 static bool read_shard(const bt_command* command, const char* text, int* shard, int* shards) {
     char first[16] = "";
@@ -96,8 +98,10 @@ static bt_status run(const bt_command* typed) {
                               merging ? "STUDY.yaml and at least one ledger" : "STUDY.yaml");
     if (command.word_count > 1 && !merging)
         return bt_usage_error(&command, "\"%s\" is one argument too many", command.words[1]);
-    if (command.option[0] && !read_shard(&command, command.option[0], &shard, &shards))
+    const char* part = command.option[OPTION_SHARD];
+    if (part && !read_shard(&command, part, &shard, &shards))
         return BT_ERR_ARG;
+    BT_TRY(bt_time_limit(&command, command.option[OPTION_TIME_LIMIT]));
 
     bt_chain chain;
     bt_status status =
@@ -111,8 +115,10 @@ static bt_status run(const bt_command* typed) {
 }
 
 static const struct argp_option options[] = {
-    {"shard", BT_OPTION, "i/n", 0, "run only part i of n; each part in a directory of its own (-o)",
-     1},
+    {"shard", BT_OPTION + OPTION_SHARD, "i/n", 0,
+     "run only part i of n; each part in a directory of its own (-o)", 1},
+    {"time-limit", BT_OPTION + OPTION_TIME_LIMIT, "TIME", 0,
+     "end in order after this time, '50 min' or '12 h', with exit code 130; run again to go on", 1},
     {0},
 };
 
@@ -126,7 +132,8 @@ const bt_verb bt_verb_campaign = {
             "threads.\n\n"
             "`campaign status' says how far it is and may be asked while it runs.\n\n"
             "On several machines: bolter campaign study.yaml --shard 1/4 -o part1, and so on; then "
-            "bolter campaign merge study.yaml part*/campaign.sqlite.",
+            "bolter campaign merge study.yaml part*/campaign.sqlite. Or, with MPI, on all of them "
+            "at once: mpirun -n 8 bolter campaign study.yaml (docs/clusters.md).",
     .options = options,
     .least_words = 1,
     .most_words = BT_WORDS_MAX,

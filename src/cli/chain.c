@@ -1,4 +1,5 @@
 #include "cli/chain.h"
+#include "cluster/cluster.h"
 
 #include <stdio.h>
 
@@ -32,8 +33,12 @@ static void show(void* user, const bt_campaign_progress* p) {
 bt_status bt_chain_campaign(bt_chain* chain, int shard, int shards,
                             bt_campaign_progress* progress) {
     bt_progress line = bt_progress_start("campaign", chain->command->quiet || chain->command->json);
-    const bt_campaign_options options = {
-        .shard = shard, .shards = shards, .stop = &bt_interrupted, .watch = show, .user = &line};
+    const bt_campaign_options options = {.shard = shard,
+                                         .shards = shards,
+                                         .stop = &bt_interrupted,
+                                         .backend = bt_cluster_backend(),
+                                         .watch = show,
+                                         .user = &line};
     atomic_store(&bt_grace_s, 5);
     const bt_status status = bt_stage_campaign(&chain->directory, &options, progress);
     atomic_store(&bt_grace_s, 1);

@@ -96,6 +96,10 @@ extern atomic_int bt_interrupted;
 /// it higher: it ends well within a second, but a slow disk may want longer for the last of them.
 extern atomic_int bt_grace_s;
 
+/// Asks the program to end in order after a time ("50 min"), as SIGUSR1 would. NULL: no limit.
+/// BT_ERR_ARG, said on stderr.
+BT_CHECKED bt_status bt_time_limit(const bt_command* command, const char* text);
+
 /// The line that long work shows: rewritten on a terminal, one a minute elsewhere, none if quiet.
 typedef struct bt_progress {
     const char* name;

@@ -2,6 +2,7 @@
 #include "cli/version.h"
 
 #include "base/arithmetic.h"
+#include "cluster/cluster.h"
 #include "study/reader.h"
 
 #include <errno.h>
@@ -9,6 +10,7 @@
 #include <limits.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -128,9 +130,24 @@ static int run_verb(const bt_verb* verb, int argc, char** argv) {
     return bt_exit_code(status);
 }
 
+/// One of several ranks: rank 0 goes on as if it were alone, the others work for it and end.
+/// Returns whether this process goes on; `code` receives how it ends when it does not.
+static bool join_cluster(int* code) {
+    bt_diag diag = bt_stderr_diag();
+    bt_cluster_role role;
+    const bt_status status = bt_cluster_start(&role, &diag);
+    atexit(bt_cluster_end);
+    *code = bt_exit_code(status);
+    if (status == BT_OK && role == BT_CLUSTER_HELP)
+        bt_cluster_serve();
+    return status == BT_OK && role != BT_CLUSTER_HELP;
+}
+
 int main(int argc, char** argv) {
     int code = 0;
     keep_streams();
+    if (!join_cluster(&code))
+        return code;
     if (argc < 2) {
         print_help(stderr);
         code = bt_exit_code(BT_ERR_ARG);

@@ -3,6 +3,7 @@
 #include "base/units.h"
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cluster/cluster.h"
 
 #include <string.h>
 
@@ -109,6 +110,7 @@ static bt_status measure(noise* n) {
     const bt_noise_stage stage = {.count = n->count,
                                   .threads = (int)n->study.campaign.threads,
                                   .stop = &bt_interrupted,
+                                  .backend = bt_cluster_backend(),
                                   .wanted = n->wanted,
                                   .sink = take_computation,
                                   .user = n};

@@ -1,5 +1,6 @@
 #include "cli/chain.h"
 #include "cli/output.h"
+#include "cluster/cluster.h"
 #include "report/reliability_report.h"
 
 #include <stdio.h>
@@ -39,6 +40,7 @@ bt_status bt_chain_reliability(bt_chain* chain, bool again, const bt_surrogate* 
     const bt_reliability_stage stage = {.again = again,
                                         .files = bt_reliability_files,
                                         .stop = &bt_interrupted,
+                                        .backend = bt_cluster_backend(),
                                         .watch = show,
                                         .watch_user = &line};
     BT_TRY(bt_stage_reliability(&chain->directory, surrogate, &stage, &fresh));

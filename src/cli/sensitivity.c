@@ -3,6 +3,7 @@
 #include "base/units.h"
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cluster/cluster.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -119,7 +120,8 @@ static bt_status sense(const bt_command* command, bt_sensitivity* given) {
 }
 
 static bt_status run_sensitivity(const bt_command* command) {
-    bt_sensitivity given = {.count = 400, .change = 0.1, .stop = &bt_interrupted};
+    bt_sensitivity given = {
+        .count = 400, .change = 0.1, .stop = &bt_interrupted, .backend = bt_cluster_backend()};
     bt_study study;
     BT_TRY(read_options(command, &given));
     BT_TRY(bt_command_study(command, &study));

@@ -53,12 +53,19 @@ static bt_status run_chain(bt_chain* chain) {
 
 static bt_status run(const bt_command* command) {
     bt_chain chain;
+    BT_TRY(bt_time_limit(command, command->option[0]));
     bt_status status = bt_chain_open(command, BT_LEDGER_CREATE, &chain);
     if (status == BT_OK)
         status = run_chain(&chain);
     bt_chain_close(&chain);
     return status;
 }
+
+static const struct argp_option options[] = {
+    {"time-limit", BT_OPTION, "TIME", 0,
+     "end in order after this time, '50 min' or '12 h', with exit code 130; run again to go on", 1},
+    {0},
+};
 
 const bt_verb bt_verb_study = {
     .name = "study",
@@ -69,6 +76,7 @@ const bt_verb bt_verb_study = {
             "again, so a study that was interrupted goes on where it stopped. Everything is kept "
             "in the study directory: study.yaml, campaign.sqlite, surrogate.model, "
             "reliability.json, report.html.",
+    .options = options,
     .least_words = 1,
     .most_words = 1,
     .outputs = BT_OUTPUT_DIRECTORY,

@@ -1,5 +1,6 @@
 #include "cli/version.h"
 
+#include "cluster/cluster.h"
 #include "surrogate/predictor.h"
 
 #include <gsl/gsl_version.h>
@@ -22,6 +23,9 @@ void bt_version_print(FILE* out, bool verbose) {
     fprintf(out, "libyaml   %s\nsqlite    %s\n", yaml_get_version_string(), sqlite3_libversion());
     fprintf(out, "gsl       %s\nhdf5      %u.%u.%u\nnlopt     %d.%d.%d\n", gsl_version, hdf5[0],
             hdf5[1], hdf5[2], nlopt[0], nlopt[1], nlopt[2]);
+    const char* mpi = bt_cluster_version();
+    if (mpi)
+        fprintf(out, "mpi       %s\n", mpi);
     fprintf(out,
             "Licence GPL-3.0-or-later. There is no warranty, to the extent permitted by law.\n");
 }

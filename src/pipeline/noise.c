@@ -69,7 +69,8 @@ static void refine(const bt_noise_variant* variant, bt_model_params* model) {
 }
 
 static bt_status run_landings(bt_study* study, int64_t count, int threads, const atomic_int* stop,
-                              bt_noise_landing* landings, bt_diag* diag) {
+                              const bt_backend* backend, bt_noise_landing* landings,
+                              bt_diag* diag) {
     work w = {.count = count, .landings = landings};
     BT_TRY(bt_design_create(study, &w.design, diag));
     const bt_executor executor = {.model = &study->model,
@@ -79,15 +80,16 @@ static bt_status run_landings(bt_study* study, int64_t count, int threads, const
                                   .stop = stop,
                                   .source = give,
                                   .sink = take,
-                                  .user = &w};
+                                  .user = &w,
+                                  .backend = backend};
     const bt_status status = bt_executor_run(&executor, diag);
     bt_design_destroy(w.design);
     return status;
 }
 
 bt_status bt_noise_run(const bt_study* given, const bt_noise_variant* variant, int64_t count,
-                       int threads, const atomic_int* stop, bt_noise_landing* landings,
-                       bt_diag* diag) {
+                       int threads, const atomic_int* stop, const bt_backend* backend,
+                       bt_noise_landing* landings, bt_diag* diag) {
     bt_study* study = malloc(sizeof *study); // a copy that owns nothing
     if (!study)
         return BT_ERR_MEMORY;
@@ -96,7 +98,7 @@ bt_status bt_noise_run(const bt_study* given, const bt_noise_variant* variant, i
     study->campaign.samples = count;
     if (variant)
         refine(variant, &study->model);
-    const bt_status status = run_landings(study, count, threads, stop, landings, diag);
+    const bt_status status = run_landings(study, count, threads, stop, backend, landings, diag);
     free(study);
     return status;
 }
@@ -171,7 +173,8 @@ static bt_status run_variant(const bt_study* study, const bt_noise_stage* stage,
                              const bt_noise_variant* variant, const bt_noise_landing* base,
                              bt_noise_landing* landings, bt_diag* diag) {
     bt_noise_difference difference;
-    BT_TRY(bt_noise_run(study, variant, stage->count, stage->threads, stage->stop, landings, diag));
+    BT_TRY(bt_noise_run(study, variant, stage->count, stage->threads, stage->stop, stage->backend,
+                        landings, diag));
     BT_TRY(bt_noise_check_failed(study, landings, stage->count, diag));
     BT_TRY(bt_noise_compare(base, landings, stage->count, &difference));
     return stage->sink(stage->user, variant, base, landings, &difference);

@@ -38,12 +38,14 @@ typedef struct bt_noise_landing {
 /// @param variant   NULL: the study as it is
 /// @param threads   0: one per core
 /// @param stop      may be NULL; see bt_executor
+/// @param backend   NULL: threads of this process
 /// @param landings  [count] receives the landings
 /// @return BT_OK; BT_ERR_INPUT (no random input, or a landing that cannot be assembled; said in
 ///         diag), BT_ERR_INTERRUPTED, BT_ERR_MEMORY
 BT_CHECKED bt_status bt_noise_run(const bt_study* study, const bt_noise_variant* variant,
                                   int64_t count, int threads, const atomic_int* stop,
-                                  bt_noise_landing* landings, bt_diag* diag);
+                                  const bt_backend* backend, bt_noise_landing* landings,
+                                  bt_diag* diag);
 
 /// Whether no more landings failed than campaign.max_failed allows. BT_ERR_FAILED_RUNS, said in
 /// diag with the first of their reasons.
@@ -69,10 +71,11 @@ BT_CHECKED bt_status bt_noise_compare(const bt_noise_landing* first, const bt_no
 
 /// What a label-noise study runs, and who is told of it.
 typedef struct bt_noise_stage {
-    int64_t count;          ///< landings per computation
-    int threads;            ///< 0: one per core
-    const atomic_int* stop; ///< may be NULL; see bt_executor
-    const bool* wanted;     ///< one flag per row of bt_noise_variants; NULL: all of them
+    int64_t count;             ///< landings per computation
+    int threads;               ///< 0: one per core
+    const atomic_int* stop;    ///< may be NULL; see bt_executor
+    const bt_backend* backend; ///< NULL: threads of this process
+    const bool* wanted;        ///< one flag per row of bt_noise_variants; NULL: all of them
     /// Told of each computation: the study as it is first (variant NULL), then the variants.
     bt_status (*sink)(void* user, const bt_noise_variant* variant, const bt_noise_landing* base,
                       const bt_noise_landing* landings, const bt_noise_difference* difference);

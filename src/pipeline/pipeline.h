@@ -39,6 +39,7 @@ typedef struct bt_reliability_stage {
     bool again;                       ///< compute even what is up to date
     const bt_reliability_file* files; ///< what is to be kept; the list ends in a NULL name
     const atomic_int* stop;           ///< may be NULL; once not 0: BT_ERR_INTERRUPTED
+    const bt_backend* backend;        ///< of the high-fidelity runs; NULL: threads
     bt_reliability_watch* watch;      ///< may be NULL
     void* watch_user;
 } bt_reliability_stage;

@@ -60,7 +60,8 @@ static bt_status compute(bt_study_directory* directory, const bt_surrogate* surr
     bt_evidence evidence = {0};
     bt_judged* judged = NULL;
     BT_TRY(judge(directory, &evidence, &judged));
-    bt_status status = bt_high_fidelity_create(directory->study, threads, stage->stop, &truth);
+    bt_status status =
+        bt_high_fidelity_create(directory->study, threads, stage->stop, stage->backend, &truth);
     const bt_reliability_options options = {.judged = judged,
                                             .truth = bt_high_fidelity_run,
                                             .truth_user = truth,

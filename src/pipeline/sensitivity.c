@@ -168,7 +168,7 @@ static void hold_distance(bt_study* study, double distance_m) {
 
 static bt_status run_landings(const moving* m, bt_noise_landing* landings, bt_diag* diag) {
     return bt_noise_run(&m->study, NULL, m->given->count, (int)m->study.campaign.threads,
-                        m->given->stop, landings, diag);
+                        m->given->stop, m->given->backend, landings, diag);
 }
 
 static bt_status move_to_end(moving* m, bt_sensitivity_effect* e, int side, bt_diag* diag) {

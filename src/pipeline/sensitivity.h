@@ -16,10 +16,11 @@ typedef struct bt_sensitivity_key {
 
 /// What is to be moved and where. Start it with {.study, .count, .change}; the calls below add.
 typedef struct bt_sensitivity {
-    const bt_study* study;  ///< the caller's
-    int64_t count;          ///< landings per row
-    double change;          ///< share of its value by which a key without a range is moved
-    const atomic_int* stop; ///< may be NULL; see bt_executor
+    const bt_study* study;     ///< the caller's
+    int64_t count;             ///< landings per row
+    double change;             ///< share of its value by which a key without a range is moved
+    const atomic_int* stop;    ///< may be NULL; see bt_executor
+    const bt_backend* backend; ///< NULL: threads of this process
     int key_count, distance_count;
     bt_sensitivity_key keys[BT_SENSITIVITY_KEYS_MAX];
     double distance_m[BT_SENSITIVITY_DISTANCES_MAX]; ///< landing.distance is held; none: drawn

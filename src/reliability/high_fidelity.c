@@ -1,7 +1,5 @@
 #include "reliability/high_fidelity.h"
 
-#include "campaign/executor.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,16 +9,18 @@ struct bt_high_fidelity {
     bt_axes inputs; ///< all of them
     int threads;
     const atomic_int* stop;
+    const bt_backend* backend;
 };
 
 bt_status bt_high_fidelity_create(const bt_study* study, int threads, const atomic_int* stop,
-                                  bt_high_fidelity** truth) {
+                                  const bt_backend* backend, bt_high_fidelity** truth) {
     bt_high_fidelity* t = *truth = calloc(1, sizeof *t);
     if (!t)
         return BT_ERR_MEMORY;
     t->study = study;
     t->threads = threads;
     t->stop = stop;
+    t->backend = backend;
     t->inputs.count = study->input_count;
     for (int i = 0; i < study->input_count; ++i)
         t->inputs.input[i] = i;
@@ -63,7 +63,8 @@ bt_status bt_high_fidelity_run(void* truth, const double* x, int n, int* label) 
                                   .stop = t->stop,
                                   .source = give,
                                   .sink = take,
-                                  .user = &b};
+                                  .user = &b,
+                                  .backend = t->backend};
     return bt_executor_run(&executor, NULL);
 }
 

@@ -2,6 +2,7 @@
 #ifndef BT_RELIABILITY_HIGH_FIDELITY_H
 #define BT_RELIABILITY_HIGH_FIDELITY_H
 
+#include "campaign/executor.h"
 #include "reliability/sampler.h"
 #include "statistics/intervals.h"
 
@@ -18,9 +19,11 @@ typedef struct bt_high_fidelity bt_high_fidelity;
 
 /// @param threads  0: one per core
 /// @param stop     may be NULL; once not 0, landings in flight end and no more begin
+/// @param backend  what computes the landings; NULL: threads of this process
 /// @return BT_OK or BT_ERR_MEMORY. The study must outlive the truth.
 BT_CHECKED bt_status bt_high_fidelity_create(const bt_study* study, int threads,
-                                             const atomic_int* stop, bt_high_fidelity** truth);
+                                             const atomic_int* stop, const bt_backend* backend,
+                                             bt_high_fidelity** truth);
 void bt_high_fidelity_destroy(bt_high_fidelity* truth);
 
 /// A bt_high_fidelity_batch whose user is a bt_high_fidelity. A run that diverges, and a point that

@@ -64,8 +64,8 @@ static void landings_are_the_same_for_any_number_of_threads_and_landings(void** 
     bt_noise_landing few[3], many[6];
     memset(few, 0, sizeof few);
     memset(many, 0, sizeof many);
-    assert_int_equal(bt_noise_run(study, NULL, 3, 1, NULL, few, NULL), BT_OK);
-    assert_int_equal(bt_noise_run(study, NULL, 6, 2, NULL, many, NULL), BT_OK);
+    assert_int_equal(bt_noise_run(study, NULL, 3, 1, NULL, NULL, few, NULL), BT_OK);
+    assert_int_equal(bt_noise_run(study, NULL, 6, 2, NULL, NULL, many, NULL), BT_OK);
     for (int i = 0; i < 3; ++i) {
         assert_true(few[i].outcome != BT_FAILED);
         assert_int_equal(few[i].outcome, many[i].outcome);
