@@ -1,5 +1,5 @@
 /**
- * What the page is given: one JSON text in the page itself. docs/theory/report.md describes it.
+ * What the page is given: one JSON text in the page itself. docs/report.md describes it.
  *
  * @typedef {Object} Packed  numbers as 16-bit steps between `least` and `greatest`
  * @property {number} width     values per row
