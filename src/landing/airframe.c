@@ -330,16 +330,17 @@ static bt_status assemble(const bt_aircraft_params* p, double gravity_mps2, bt_a
     add_legs(f);
     add_hook(p, &damper, f);
 
-    bt_force lift = {.force_N = {0, 0, p->lift_ratio * p->mass_kg * gravity_mps2}};
     f->has_tail = p->tail.x_m != 0 || p->tail.z_m != 0;
     from_fuselage(f, (double[]){p->tail.x_m, 0, p->tail.z_m}, f->tail_m);
     static const double centre[3] = {0};
-    from_fuselage(f, centre, lift.point_b_m);
-    bt_system_add_element(f->system, &(bt_element){.type = &bt_force_element,
+    double point_m[3];
+    from_fuselage(f, centre, point_m);
+    bt_lift_init(&f->lift, p->lift_ratio * p->mass_kg * gravity_mps2, point_m);
+    bt_system_add_element(f->system, &(bt_element){.type = &bt_lift_type,
                                                    .name = "lift",
                                                    .body_a = BT_GROUND,
                                                    .body_b = BT_BODY_FUSELAGE,
-                                                   .data = &lift});
+                                                   .data = &(bt_lift_element){&f->lift}});
     const double gravity[3] = {0, 0, -gravity_mps2};
     bt_system_set_gravity(f->system, gravity);
     return bt_system_assemble(f->system, diag);
@@ -376,7 +377,7 @@ static void attitude_of(const bt_landing_params* landing, double e[4]) {
 void bt_airframe_place(const bt_airframe* f, const bt_landing_params* landing,
                        const bt_state* hanging, bt_state* state, bt_glide* glide) {
     double turn[4], a[9],
-        velocity[3] = {landing->horizontal_speed_mps, 0, -landing->sink_speed_mps};
+        velocity[3] = {landing->horizontal_speed_mps, landing->drift_mps, -landing->sink_speed_mps};
     attitude_of(landing, turn);
     bt_rotation_from_euler(turn, a);
     bt_state_copy(f->system, state, hanging);

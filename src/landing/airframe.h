@@ -6,6 +6,7 @@
 #define BT_LANDING_AIRFRAME_H
 
 #include "elements/oleo.h"
+#include "landing/lift.h"
 #include "landing/profile.h"
 #include "landing/shank.h"
 #include "landing/shoe.h"
@@ -28,6 +29,7 @@ typedef struct bt_airframe {
     double tail_m[3];                  ///< that point in the fuselage's body frame
     double shoe_m[3];                  ///< shoe arc's centre in the hook's body frame
     bt_shoe shoe_contact;
+    bt_lift lift;                  ///< the system reads it here: an airframe does not move
     double stroke_m[BT_LEG_COUNT]; ///< in the glide: struts at rest on their stops
     double hook_angle_rad;         ///< in the glide: shank below the fuselage axis
     double head_angle_rad;         ///< and its part with the head: bent by its weight

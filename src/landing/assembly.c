@@ -1,6 +1,8 @@
 /// The model of a landing: airframe, wires, and their static equilibrium.
 #include "landing/parts.h"
 
+#include "landing/ship.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -59,15 +61,26 @@ static bt_status refuse_mesh(int count, bt_diag* diag) {
     return BT_ERR_INPUT;
 }
 
+/// Whether the wires are those of the last call: how the ship moves matters by what presses them
+/// down alone.
+static bool same_wires(const bt_landing_model* m, const bt_model_params* p, double pressing_mps2) {
+    bt_deck_params last = m->params.deck;
+    last.motion = p->deck.motion;
+    return m->has_cable && m->pressing_mps2 == pressing_mps2 &&
+           memcmp(&last, &p->deck, sizeof last) == 0;
+}
+
 /// Builds the wires and finds their equilibrium unless the last ones are the same.
 static bt_status prepare_wires(bt_landing_model* m, const bt_model_params* p, bt_diag* diag) {
-    if (m->has_cable && memcmp(&m->params.deck, &p->deck, sizeof p->deck) == 0)
+    const double pressing_mps2 = bt_ship_pressing(&p->deck.motion, p->deck.gravity_mps2);
+    if (same_wires(m, p, pressing_mps2))
         return BT_OK;
     m->has_cable = false;
+    m->pressing_mps2 = pressing_mps2;
     ++m->built;
     bt_arena_reset(&m->arena, m->airframe_mark);
     bt_cable_def def;
-    bt_cable_def_init(&def, &p->deck.cable, p->deck.gravity_mps2, m->segment_m);
+    bt_cable_def_init(&def, &p->deck.cable, pressing_mps2, m->segment_m);
     def.level = m->kernel;
     if (bt_cable_memory(def.count, 1) > m->arena.size - m->arena.used)
         return refuse_mesh(def.count, diag);
@@ -92,5 +105,8 @@ bt_status bt_landing_model_prepare(bt_landing_model* model, const bt_model_param
         model->airframe.tyre[leg].strips = (int)params->landing.solver.tyre_strips;
     const bt_status status = prepare_wires(model, params, diag);
     model->params = *params; // also when the wires are refused: the airframe may be a new one
+    model->moves = bt_ship_accelerates(&params->deck.motion);
+    bt_lift_prepare(&model->airframe.lift, params, params->landing.pitch_rad);
+    bt_ship_relative(&params->deck.motion, &model->params.landing);
     return status;
 }

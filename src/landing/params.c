@@ -1,13 +1,16 @@
 #include "landing/params.h"
 
 #include "landing/landing.h"
+#include "landing/lift.h"
 #include "landing/profile.h"
 #include "landing/shank.h"
+#include "landing/ship.h"
 #include "landing/stable_step.h"
 
 #include <stdio.h>
 
 const char* const bt_distance_from_names[] = {"hook", "main_wheels", NULL};
+const char* const bt_lift_law_names[] = {"constant", "aerodynamic", NULL};
 
 #define ROW(kind, name, ...) BT_ROW_##kind(bt_gear_params, name, __VA_ARGS__)
 BT_DEFINE_GROUP(gear, BT_GEAR_FIELDS, ROW, NULL, "one leg: strut, piston, wheel and tyre")
@@ -60,12 +63,28 @@ BT_DEFINE_GROUP(tail, BT_TAIL_FIELDS, ROW, NULL, "a point of the fuselage that m
 BT_DEFINE_GROUP(aircraft, BT_AIRCRAFT_FIELDS, ROW, NULL, "the aircraft")
 #undef ROW
 
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_heave_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(heave, BT_HEAVE_FIELDS, ROW, NULL, "heave of the deck")
+#undef ROW
+
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_sway_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(sway, BT_SWAY_FIELDS, ROW, NULL, "pitch or roll of the ship")
+#undef ROW
+
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_motion_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(motion, BT_MOTION_FIELDS, ROW, NULL, "how the ship moves during the landing")
+#undef ROW
+
 #define ROW(kind, name, ...) BT_ROW_##kind(bt_deck_params, name, __VA_ARGS__)
 BT_DEFINE_GROUP(deck, BT_DECK_FIELDS, ROW, NULL, "the deck and its cable")
 #undef ROW
 
 #define ROW(kind, name, ...) BT_ROW_##kind(bt_solver_params, name, __VA_ARGS__)
 BT_DEFINE_GROUP(solver, BT_SOLVER_FIELDS, ROW, NULL, "steps and limits of the computation")
+#undef ROW
+
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_lift_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(lift, BT_LIFT_FIELDS, ROW, NULL, "lift after touchdown")
 #undef ROW
 
 #define ROW(kind, name, ...) BT_ROW_##kind(bt_landing_params, name, __VA_ARGS__)
@@ -97,6 +116,20 @@ static void check_mesh_size(const bt_cable_params* cable, const char* path, bt_d
                     0.05 + (double)def.count / BT_LANDING_SEGMENTS_MAX);
 }
 
+/// Lift is scaled by the angle of attack it had at touchdown: there must be one.
+static void check_lift(const bt_landing_params* landing, const char* path, bt_diag* diag) {
+    static const double least_rad = 0.02;
+    const double angle_rad = bt_lift_touchdown_angle(landing, landing->pitch_rad);
+    if (landing->lift.law != BT_LIFT_AERODYNAMIC ||
+        angle_rad - landing->lift.zero_lift_angle_rad >= least_rad)
+        return;
+    bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                "%s%slanding.lift.zero_lift_angle: %.4g rad, the angle of attack at touchdown is "
+                "%.4g rad and carries nothing; at most %.4g rad would do",
+                path, *path ? "." : "", landing->lift.zero_lift_angle_rad, angle_rad,
+                angle_rad - least_rad);
+}
+
 /// What only the parts together can say: the cable must fit the hook, the steps the parts.
 static void check_model(const void* params, const char* path, bt_diag* diag) {
     const bt_model_params* model = params;
@@ -112,6 +145,8 @@ static void check_model(const void* params, const char* path, bt_diag* diag) {
 
     check_steps(model, path, diag);
     check_mesh_size(&model->deck.cable, path, diag);
+    check_lift(&model->landing, path, diag);
+    bt_ship_check(model, path, diag);
 
     const bt_gear_params* gear = &model->aircraft.main_gear;
     const double track_m = 2 * gear->half_track_m + gear->tyre.width_m * (double)gear->tyre.tyres;

@@ -106,16 +106,46 @@ BT_DECLARE_GROUP(tail, BT_TAIL_FIELDS)
     F(REAL, inertia_xz, kgm2, OPTIONAL, 0, -1e8, 1e8, "Eq. 1",                                     \
       "tensor entry -integral x z dm, as above")                                                   \
     F(PLAIN, lift_ratio, _, OPTIONAL, 1, 0, 2, "",                                                 \
-      "lift over weight from the first touch of the deck on, constant; until then the glide is "   \
-      "steady")                                                                                    \
+      "lift over weight at the first touch of the deck, from then on as landing.lift says; until " \
+      "then the glide is steady")                                                                  \
     F(GROUP, nose_gear, gear, REQUIRED, 0, 0, 0, "", "nose leg")                                   \
     F(GROUP, main_gear, gear, REQUIRED, 0, 0, 0, "", "main legs, left and right alike")            \
     F(GROUP, hook, hook, REQUIRED, 0, 0, 0, "", "arresting hook")                                  \
     F(GROUP, tail, tail, OPTIONAL, 0, 0, 0, "", "what of the fuselage may come down to the deck")
 BT_DECLARE_GROUP(aircraft, BT_AIRCRAFT_FIELDS)
 
+#define BT_HEAVE_FIELDS(F)                                                                         \
+    F(REAL, velocity, mps, OPTIONAL, 0, -10, 10, "",                                               \
+      "of the deck at the first wire at touchdown, up positive; it adds to the sinking velocity")  \
+    F(REAL, acceleration, mps2, OPTIONAL, 0, -5, 5, "", "likewise, constant over the landing")     \
+    F(REAL, amplitude, m, OPTIONAL, 0, 0, 20, "",                                                  \
+      "of a sinusoid added to it: amplitude sin(2 pi t / period + phase), t from touchdown on")    \
+    F(REAL, period, s, OPTIONAL, 8, 1, 60, "", "of that sinusoid [assumed]")                       \
+    F(REAL, phase, rad, OPTIONAL, 0, -6.2832, 6.2832, "", "of that sinusoid at touchdown")
+BT_DECLARE_GROUP(heave, BT_HEAVE_FIELDS)
+
+#define BT_SWAY_FIELDS(F)                                                                          \
+    F(REAL, angle, rad, OPTIONAL, 0, -0.15, 0.15, "", "of the deck from level at touchdown")       \
+    F(REAL, rate, radps, OPTIONAL, 0, -0.2, 0.2, "", "at touchdown")                               \
+    F(REAL, acceleration, radps2, OPTIONAL, 0, -0.2, 0.2, "", "constant over the landing")         \
+    F(REAL, amplitude, rad, OPTIONAL, 0, 0, 0.15, "",                                              \
+      "of a sinusoid added to it: amplitude sin(2 pi t / period + phase), t from touchdown on")    \
+    F(REAL, period, s, OPTIONAL, 8, 1, 60, "", "of that sinusoid [assumed]")                       \
+    F(REAL, phase, rad, OPTIONAL, 0, -6.2832, 6.2832, "", "of that sinusoid at touchdown")
+BT_DECLARE_GROUP(sway, BT_SWAY_FIELDS)
+
+#define BT_MOTION_FIELDS(F)                                                                        \
+    F(GROUP, heave, heave, OPTIONAL, 0, 0, 0, "", "up and down")                                   \
+    F(GROUP, pitch, sway, OPTIONAL, 0, 0, 0, "", "about the ship's beam, bow up positive")         \
+    F(GROUP, roll, sway, OPTIONAL, 0, 0, 0, "", "about the ship's length, port side up positive")  \
+    F(REAL, centre_ahead, m, OPTIONAL, 0, -300, 300, "",                                           \
+      "of the first wire: the point that pitch and roll turn about and that heaves; 0: the wire")  \
+    F(REAL, centre_below, m, OPTIONAL, 0, 0, 60, "", "of the deck: likewise")
+BT_DECLARE_GROUP(motion, BT_MOTION_FIELDS)
+
 #define BT_DECK_FIELDS(F)                                                                          \
     F(REAL, gravity, mps2, OPTIONAL, 9.80665, 0, 100, "", "acceleration of gravity")               \
+    F(GROUP, motion, motion, OPTIONAL, 0, 0, 0, "", "how the ship moves during the landing")       \
     F(GROUP, cable, cable, REQUIRED, 0, 0, 0, "Eqs. 11-17", "the arresting cable and what holds it")
 BT_DECLARE_GROUP(deck, BT_DECK_FIELDS)
 
@@ -143,6 +173,22 @@ BT_DECLARE_GROUP(solver, BT_SOLVER_FIELDS)
 enum { BT_DISTANCE_FROM_HOOK, BT_DISTANCE_FROM_MAIN_WHEELS };
 extern const char* const bt_distance_from_names[];
 
+enum { BT_LIFT_CONSTANT, BT_LIFT_AERODYNAMIC };
+extern const char* const bt_lift_law_names[];
+
+#define BT_LIFT_FIELDS(F)                                                                          \
+    F(CHOICE, law, bt_lift_law_names, OPTIONAL, 0, 0, 0, "",                                       \
+      "constant: aircraft.lift_ratio times the weight; aerodynamic: that at touchdown, then with " \
+      "speed squared and angle of attack")                                                         \
+    F(REAL, zero_lift_angle, rad, OPTIONAL, -0.03491, -0.35, 0.2, "",                              \
+      "angle of attack without lift, from the pitch axis, flaps down [assumed]")                   \
+    F(REAL, wind, mps, OPTIONAL, 0, -20, 40, "",                                                   \
+      "wind over the deck, from ahead: speed through the air less horizontal_speed")               \
+    F(REAL, dump_after, s, OPTIONAL, 0, 0, 60, "", "after first contact: lift begins to fall")     \
+    F(REAL, dump_duration, s, OPTIONAL, 0.3, 1e-3, 60, "", "over which it falls [assumed]")        \
+    F(PLAIN, dump_share, _, OPTIONAL, 1, -1, 1, "", "of the lift that is left then; 1: no dump")
+BT_DECLARE_GROUP(lift, BT_LIFT_FIELDS)
+
 #define BT_LANDING_FIELDS(F)                                                                       \
     F(REAL, sink_speed, mps, REQUIRED, 3.6, 0.01, 15, "Sec. 4.1", "V_V: sinking velocity")         \
     F(REAL, horizontal_speed, mps, REQUIRED, 47.5, 5, 120, "Sec. 4.3",                             \
@@ -150,14 +196,17 @@ extern const char* const bt_distance_from_names[];
     F(REAL, pitch, rad, REQUIRED, 0.05236, -0.35, 0.35, "Sec. 4.2",                                \
       "theta_P: pitch angle, nose up positive")                                                    \
     F(REAL, roll, rad, OPTIONAL, 0, -0.35, 0.35, "", "roll angle, port side up positive")          \
+    F(REAL, drift, mps, OPTIONAL, 0, -20, 20, "",                                                  \
+      "lateral velocity over the deck, to port positive: crosswind not taken out")                 \
     F(REAL, yaw, rad, OPTIONAL, 0, -0.35, 0.35, "",                                                \
-      "yaw angle, nose to port positive; the velocity stays along x")                              \
+      "yaw angle, nose to port positive; the velocity stays as it is")                             \
     F(REAL, off_centre, m, OPTIONAL, 0, -12, 12, "", "y of the centre of gravity, port positive")  \
     F(REAL, distance, m, REQUIRED, 6, -60, 60, "Sec. 5.3",                                         \
       "D: along the deck from the part named by distance_from to the cable at rest, at first "     \
       "contact; negative when that part is past the cable by then")                                \
     F(CHOICE, distance_from, bt_distance_from_names, OPTIONAL, 0, 0, 0, "Sec. 5.3",                \
       "the part D is measured from")                                                               \
+    F(GROUP, lift, lift, OPTIONAL, 0, 0, 0, "", "lift after touchdown")                            \
     F(GROUP, solver, solver, OPTIONAL, 0, 0, 0, "", "steps and limits of the computation")
 BT_DECLARE_GROUP(landing, BT_LANDING_FIELDS)
 

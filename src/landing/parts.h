@@ -9,7 +9,8 @@
 enum { BT_WIRE_MAX = 1 };
 
 struct bt_landing_model {
-    bt_model_params params; ///< what the parts, where there are any, were built from
+    bt_model_params params; ///< what the parts, where there are any, were built from; of the
+                            ///< landing the velocities as the deck sees them
     bool has_airframe, has_cable;
     bt_kernel_level kernel; ///< of the cables
     uint64_t built; ///< changes with every rebuilding of a part: states before it do not fit
@@ -22,6 +23,8 @@ struct bt_landing_model {
     int wire_count;
     bt_wire wire[BT_WIRE_MAX];
     double segment_m[BT_CABLE_SEGMENTS_MAX];
+    double pressing_mps2; ///< normal to the deck, in which the wires rest
+    bool moves;           ///< the deck's frame is not that of a deck at rest
 };
 
 typedef enum bt_landing_phase {
@@ -58,6 +61,10 @@ static inline double bt_landing_output(const bt_landing_model* model, const bt_l
                                        int element, int index) {
     return bt_system_element_output(model->airframe.system, &state->airframe, element)[index];
 }
+
+/// Sets the frames of airframe and wires where the deck moves: at the end of a step of step_s that
+/// begins now, and now.
+void bt_landing_move_deck(const bt_landing_model* model, bt_landing_state* state, double step_s);
 
 /// The landing has failed in an element, by a quantity, at a time.
 void bt_landing_fail(bt_landing_state* state, const char* element, const char* quantity,

@@ -1,6 +1,8 @@
 /// Where a landing begins: aircraft on its glide, wires at rest.
 #include "landing/parts.h"
 
+#include "landing/ship.h"
+
 #include "mechanics/vec.h"
 
 #include <math.h>
@@ -51,6 +53,47 @@ static double begins_s(const bt_landing_model* m, bt_glide* glide, const double 
     return begin_s;
 }
 
+/// Takes the aircraft, which touches the deck at time 0 after a shift, to an earlier time: it has
+/// come straight and without turning, the deck has not.
+static void go_back(const bt_landing_model* m, const double shift[3], double time_s,
+                    bt_state* state) {
+    const bt_motion_params* motion = &m->params.deck.motion;
+    bt_ship now, touchdown;
+    double turned[4];
+    bt_ship_at(motion, time_s, &now);
+    bt_ship_at(motion, 0, &touchdown);
+    bt_ship_turned(motion, time_s, turned);
+    for (int body = 0; body < m->airframe.body_count; ++body) {
+        double *q = state->q + 7 * body, *v = state->v + 6 * body, way[3], place[3], carried[3],
+               e[4];
+        for (int i = 0; i < 3; ++i) { // relative to the origin at touchdown; absolute
+            way[i] = v[i] + touchdown.velocity_mps[i];
+            place[i] = q[i] + shift[i] + time_s * way[i] - now.shift_m[i];
+        }
+        bt_unrotate(now.turn, place, q);
+        bt_euler_relative(turned, q + 3, e);
+        memcpy(q + 3, e, sizeof e);
+        bt_rotation_from_euler(q + 3, state->rotation + 9 * body);
+        bt_unrotate(now.turn, way, v);
+        bt_cross(now.spin_radps, q, carried);
+        bt_add_scaled(v, -1, now.velocity_mps);
+        bt_add_scaled(v, -1, carried);
+        bt_unrotate(state->rotation + 9 * body, now.spin_radps, v + 3);
+        for (int i = 0; i < 3; ++i)
+            v[3 + i] *= -1;
+    }
+}
+
+/// A wire that would come to lie elsewhere than where it sleeps, by more than the margin's own
+/// scatter, is awake from the start.
+static bool sleeps(const bt_landing_model* m, double begins_s) {
+    static const double tolerance_m = 1e-4;
+    const bt_landing_params* p = &m->params.landing;
+    const double lasts_s = (fabs(p->distance_m) + 10) / p->horizontal_speed_mps;
+    return !m->moves || bt_ship_sleeping_error(&m->params.deck.motion, &m->params.deck.cable,
+                                               begins_s, lasts_s) <= tolerance_m;
+}
+
 /// The wire rests at x = 0, the named part of the gliding aircraft is `distance` before it when the
 /// first part touches the deck at time 0. Going back along the glide is exact, since nothing
 /// touches anything there and gravity is what lift carries
@@ -63,15 +106,20 @@ bool bt_landing_start(const bt_landing_model* m, bt_landing_state* s) {
     bt_airframe_place(&m->airframe, p, &m->hanging, &s->airframe, &glide);
     touchdown_shift(p, &glide, shift);
     const double begin_s = begins_s(m, &glide, shift);
-    const double back[3] = {shift[0] + begin_s * p->horizontal_speed_mps, 0,
+    const double back[3] = {shift[0] + begin_s * p->horizontal_speed_mps,
+                            shift[1] + begin_s * p->drift_mps,
                             shift[2] - begin_s * p->sink_speed_mps};
-    bt_airframe_move(&m->airframe, back, &s->airframe);
+    if (m->moves)
+        go_back(m, shift, begin_s, &s->airframe);
+    else
+        bt_airframe_move(&m->airframe, back, &s->airframe);
     s->airframe.time_s = begin_s;
     s->airframe.steps = 0;
 
     for (int k = 0; k < m->wire_count; ++k) {
         bt_wire_contacts(&m->airframe, &m->params, &s->wire[k]);
         bt_wire_start(&m->wire[k], &s->wire[k]);
+        s->wire[k].awake = !sleeps(m, begin_s);
     }
     memset(&s->slides, 0, sizeof s->slides);
     s->observed = false;
@@ -84,6 +132,8 @@ bool bt_landing_start(const bt_landing_model* m, bt_landing_state* s) {
         s->phase = BT_PHASE_GLIDE;
         s->airframe.frame.gravity_mps2[2] *= m->params.aircraft.lift_ratio;
     }
+    if (m->moves)
+        bt_landing_move_deck(m, s, 0);
     s->end_by_s = time_allowed * (fabs(p->distance_m) + 10) / p->horizontal_speed_mps;
     bt_failure failure = {0};
     if (bt_system_project(m->airframe.system, &s->airframe, &failure) != BT_OK ||

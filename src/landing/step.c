@@ -3,6 +3,7 @@
 
 #include "elements/strut.h"
 #include "elements/wheel.h"
+#include "landing/ship.h"
 #include "mechanics/vec.h"
 
 #include <math.h>
@@ -85,12 +86,25 @@ static double choose_step(const bt_landing_model* m, const bt_landing_state* s) 
     return s->phase == BT_PHASE_GLIDE ? left_s / ceil(left_s / step_s) : step_s;
 }
 
+void bt_landing_move_deck(const bt_landing_model* m, bt_landing_state* s, double step_s) {
+    const bt_motion_params* motion = &m->params.deck.motion;
+    const double g = m->params.deck.gravity_mps2, now_s = s->airframe.time_s;
+    const double carried = s->phase == BT_PHASE_GLIDE ? m->params.aircraft.lift_ratio : 1;
+    bt_frame wires;
+    bt_ship_frame(motion, g, carried, now_s + step_s, &s->airframe.frame);
+    bt_ship_frame(motion, g, 1, now_s, &wires);
+    for (int k = 0; k < m->wire_count; ++k)
+        bt_ship_frame_ahead(&wires, m->wire[k].position_m, &s->wire[k].cable.scalars->frame);
+}
+
 /// From the first touch on all of the weight acts.
 static bool end_glide(const bt_landing_model* m, bt_landing_state* s, bt_failure* failure) {
     if (s->phase != BT_PHASE_GLIDE || s->airframe.time_s < 0)
         return true;
     s->phase = BT_PHASE_ROLL;
     s->airframe.frame = m->hanging.frame;
+    if (m->moves)
+        bt_landing_move_deck(m, s, 0);
     return bt_system_evaluate(m->airframe.system, &s->airframe, failure) == BT_OK;
 }
 
@@ -218,6 +232,8 @@ bool bt_landing_step(const bt_landing_model* m, bt_landing_state* s) {
     // 1. where wheels and hook are, how far from the wires, and the step that all parts bear
     follow_parts(m, s);
     const double step_s = choose_step(m, s);
+    if (m->moves)
+        bt_landing_move_deck(m, s, step_s);
     // 2. wires: joints, tyres and hook on the cable, steps of their own
     //    [Peng2023 Eqs. 6, 7, 11-17]; the airframe gets the opposite as a mean over the step
     step_wires(m, s, step_s);
