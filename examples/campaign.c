@@ -59,9 +59,9 @@ int main(int argc, char** argv) {
     if (status == BT_OK)
         status = bt_case_fit(study, &fit, &scores);
     if (status == BT_OK)
-        printf("\n%d missed, the nearest is landing %lld by %.1f mm\n"
+        printf("\n%d missed, the one with the highest margin is landing %lld, %+.1f mm\n"
                "classifier correct on %d of %d held-out landings\n",
-               missed.count, (long long)missed.nearest, -1e3 * missed.nearest_m,
+               missed.count, (long long)missed.nearest, 1e3 * missed.nearest_m,
                scores.holdout_correct, scores.holdout_count);
     bt_case_close(study);
     return status == BT_OK ? 0 : 1;

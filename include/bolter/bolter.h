@@ -16,6 +16,7 @@
 
 #include "bolter/campaign.h"
 #include "bolter/landing.h"
+#include "bolter/reliability.h"
 #include "bolter/rig.h"
 #include "bolter/status.h"
 #include "bolter/study.h"

@@ -42,6 +42,8 @@ typedef struct bt_reliability_stage {
     const bt_backend* backend;        ///< of the high-fidelity runs; NULL: threads
     bt_reliability_watch* watch;      ///< may be NULL
     void* watch_user;
+    bt_reliability_result* result; ///< receives the numbers, which are then computed in any case;
+                                   ///< may be NULL
 } bt_reliability_stage;
 
 /// The probability of engagement for every condition, into the files of the stage; leaves them

@@ -102,6 +102,8 @@ static bt_status renew(bt_study_directory* directory, const bt_surrogate* surrog
         status = store(directory, f, result);
     if (status == BT_OK)
         status = bt_ledger_set_remark(directory->ledger, "reliability", key, directory->diag);
+    if (status == BT_OK && stage->result)
+        *stage->result = *result;
     free(result);
     return status;
 }
@@ -120,8 +122,8 @@ bt_status bt_stage_reliability(bt_study_directory* directory, const bt_surrogate
     if (!key)
         return BT_ERR_MEMORY;
     char* stored = bt_ledger_remark(directory->ledger, "reliability");
-    const bool stale =
-        stage->again || !stored || strcmp(stored, key) != 0 || !all_there(directory, stage->files);
+    const bool stale = stage->again || stage->result || !stored || strcmp(stored, key) != 0 ||
+                       !all_there(directory, stage->files);
     if (fresh)
         *fresh = stale;
     const bt_status status = stale ? renew(directory, surrogate, stage, key) : BT_OK;

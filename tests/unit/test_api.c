@@ -343,6 +343,14 @@ static bool sum_row(void* user, const bt_campaign_row* row) {
     return true;
 }
 
+static void see_reliability(void* user, const bt_reliability_line* line) {
+    assert_true(line->corrected >= line->corrected_ci95[0]);
+    assert_true(line->corrected <= line->corrected_ci95[1]);
+    assert_true(line->surrogate >= 0 && line->surrogate <= 1);
+    ++*(int*)user;
+    assert_int_equal(line->parameter[0] == '\0', *(int*)user == 25);
+}
+
 static void a_campaign_runs_stops_goes_on_and_is_read_and_fitted(void** state) {
     (void)state;
     char* folder = toy_directory();
@@ -382,6 +390,13 @@ static void a_campaign_runs_stops_goes_on_and_is_read_and_fitted(void** state) {
     assert_true(decision > 0);
     assert_int_equal(bt_case_fit(c, &fit, &report), BT_OK);
     assert_false(report.trained_now);
+
+    int lines = 0;
+    const bt_reliability_def reliability = {.size = sizeof reliability};
+    assert_int_equal(bt_case_set_text(c, "reliability.samples", "2000"), BT_OK);
+    assert_int_equal(bt_case_set_text(c, "reliability.truth_runs", "0"), BT_OK);
+    assert_int_equal(bt_case_reliability(c, &reliability, see_reliability, &lines), BT_OK);
+    assert_int_equal(lines, 25);
     bt_case_close(c);
     toy_directory_remove(folder);
 }
