@@ -45,7 +45,7 @@ typedef struct bt_verb {
 
 extern const bt_verb bt_verb_check, bt_verb_keys, bt_verb_land, bt_verb_campaign, bt_verb_replay,
     bt_verb_fit, bt_verb_reliability, bt_verb_study, bt_verb_sweep, bt_verb_calibrate, bt_verb_rig,
-    bt_verb_noise, bt_verb_sensitivity, bt_verb_report, bt_verb_figures;
+    bt_verb_noise, bt_verb_sensitivity, bt_verb_report, bt_verb_figures, bt_verb_paper;
 
 /// Draws Figs. 14 to 16 of a study into a folder.
 BT_CHECKED bt_status bt_sweep_figures(const bt_study* study, const char* folder, bt_diag* diag);

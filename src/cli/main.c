@@ -18,7 +18,7 @@ static const bt_verb* const verbs[] = {
     &bt_verb_check,       &bt_verb_keys,        &bt_verb_land,     &bt_verb_rig,
     &bt_verb_sweep,       &bt_verb_calibrate,   &bt_verb_campaign, &bt_verb_replay,
     &bt_verb_fit,         &bt_verb_reliability, &bt_verb_study,    &bt_verb_noise,
-    &bt_verb_sensitivity, &bt_verb_report,      &bt_verb_figures,
+    &bt_verb_sensitivity, &bt_verb_report,      &bt_verb_figures,  &bt_verb_paper,
 };
 enum { VERB_COUNT = sizeof verbs / sizeof verbs[0] };
 

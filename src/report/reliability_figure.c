@@ -1,94 +1,12 @@
 #include "report/reliability_figure.h"
 
-#include "base/directory.h"
-#include "base/text.h"
 #include "report/display.h"
 #include "report/figure.h"
+#include "report/reliability_csv.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-/// Columns of reliability.csv that are drawn.
-enum { VALUE, CORRECTED, LEAST, GREATEST, SURROGATE, COLUMNS };
-static const char* const column_names[COLUMNS] = {"value", "corrected", "corrected_least",
-                                                  "corrected_greatest", "surrogate"};
-enum { CELLS_MAX = 64 };
-
-/// One input's conditions in the order of their means.
-typedef struct curve {
-    int count;
-    double at[COLUMNS][BT_CONDITION_MAX]; ///< display unit; shares in percent
-} curve;
-
-/// Cuts a line at its commas, in place; returns how many cells it has.
-static int cut(char* line, char* cell[CELLS_MAX]) {
-    int count = 0;
-    for (char* rest = line; rest && count < CELLS_MAX;)
-        cell[count++] = strsep(&rest, ",");
-    return count;
-}
-
-static int find(char* const cell[CELLS_MAX], int count, const char* name) {
-    for (int i = 0; i < count; ++i)
-        if (strcmp(cell[i], name) == 0)
-            return i;
-    return -1;
-}
-
-/// The places of its columns in a line.
-typedef struct csv {
-    int parameter, column[COLUMNS];
-} csv;
-
-static bt_status read_head(csv* t, char* line, const char* path, bt_diag* diag) {
-    char* cell[CELLS_MAX];
-    const int count = cut(line, cell);
-    t->parameter = find(cell, count, "parameter");
-    bool whole = t->parameter >= 0;
-    for (int k = 0; k < COLUMNS; ++k) {
-        t->column[k] = find(cell, count, column_names[k]);
-        whole = whole && t->column[k] >= 0;
-    }
-    if (whole)
-        return BT_OK;
-    bt_diag_add(diag, BT_ERROR, (bt_where){path, 1, 0},
-                "these are not the columns of a reliability table of this version; run `bolter "
-                "reliability --again'");
-    return BT_ERR_INPUT;
-}
-
-static void read_row(const csv* t, char* line, const char* path, double factor, curve* c) {
-    char* cell[CELLS_MAX];
-    const int count = cut(line, cell);
-    if (c->count == BT_CONDITION_MAX || t->parameter >= count ||
-        strcmp(cell[t->parameter], path) != 0)
-        return;
-    for (int k = 0; k < COLUMNS; ++k) {
-        double value = NAN;
-        if (t->column[k] < count && *cell[t->column[k]])
-            bt_text_scan_number(cell[t->column[k]], &value);
-        c->at[k][c->count] = (k == VALUE ? factor : 100) * value;
-    }
-    ++c->count;
-}
-
-/// The rows of one input, of a copy of the table that is cut up.
-static bt_status read_curve(const csv* t, const char* rows, const char* path, double factor,
-                            curve* c) {
-    char* copy = strdup(rows);
-    char* rest = copy;
-    c->count = 0;
-    if (!copy)
-        return BT_ERR_MEMORY;
-    for (char* line = strsep(&rest, "\n"); line; line = strsep(&rest, "\n"))
-        read_row(t, line, path, factor, c);
-    free(copy);
-    return BT_OK;
-}
 
 // --- figure -----------------------------------------------------------------------------------
 
@@ -118,7 +36,7 @@ static void name_figure(const bt_study* study, const bt_input* input, char name[
             *c = '_';
 }
 
-static bt_status draw(const bt_study* study, const bt_input* input, const curve* c,
+static bt_status draw(const bt_study* study, const bt_input* input, const bt_reliability_curve* c,
                       const char* folder, bt_diag* diag) {
     char name[160], title[512], label[BT_PATH_MAX], x_label[BT_PATH_MAX + 64];
     double factor;
@@ -133,15 +51,15 @@ static bt_status draw(const bt_study* study, const bt_input* input, const curve*
     const bt_series series[] = {{.label = "corrected, 95 % interval",
                                  .style = BT_SERIES_LINE_POINTS,
                                  .count = c->count,
-                                 .x = c->at[VALUE],
-                                 .y = c->at[CORRECTED],
-                                 .low = c->at[LEAST],
-                                 .high = c->at[GREATEST]},
+                                 .x = c->at[BT_CURVE_VALUE],
+                                 .y = c->at[BT_CURVE_CORRECTED],
+                                 .low = c->at[BT_CURVE_LEAST],
+                                 .high = c->at[BT_CURVE_GREATEST]},
                                 {.label = "classifier alone",
                                  .style = BT_SERIES_POINTS,
                                  .count = c->count,
-                                 .x = c->at[VALUE],
-                                 .y = c->at[SURROGATE]}};
+                                 .x = c->at[BT_CURVE_VALUE],
+                                 .y = c->at[BT_CURVE_SURROGATE]}};
     const bt_figure figure = {.name = name,
                               .title = title,
                               .x_label = x_label,
@@ -153,30 +71,25 @@ static bt_status draw(const bt_study* study, const bt_input* input, const curve*
     return bt_figure_write(&figure, folder, diag);
 }
 
-static bt_status draw_all(const bt_study* study, char* text, const char* path, const char* folder,
-                          bt_diag* diag) {
-    csv t;
-    char* rows = text;
-    char* head = strsep(&rows, "\n");
-    BT_TRY(read_head(&t, head, path, diag));
-    for (int i = 0; i < study->input_count && rows; ++i) {
-        curve c;
-        double factor;
-        bt_display_unit(study->inputs[i].field, &factor);
-        BT_TRY(read_curve(&t, rows, study->inputs[i].path, factor, &c));
-        if (c.count > 1)
-            BT_TRY(draw(study, &study->inputs[i], &c, folder, diag));
-    }
-    return BT_OK;
+/// Into the unit that people use, and percent.
+static void to_display(bt_reliability_curve* c, double factor) {
+    for (int k = 0; k < BT_CURVE_COLUMNS; ++k)
+        for (int i = 0; i < c->count; ++i)
+            c->at[k][i] *= k == BT_CURVE_VALUE ? factor : 100;
 }
 
 bt_status bt_reliability_draw(const bt_study* study, const char* folder, bt_diag* diag) {
-    char path[BT_FILE_PATH_MAX], *text = NULL;
-    BT_TRY(bt_file_path(path, study->directory, "reliability.csv"));
-    if (access(path, F_OK) != 0)
-        return BT_OK;
-    BT_TRY(bt_file_read(path, &text, NULL, diag));
-    const bt_status status = draw_all(study, text, path, folder, diag);
-    free(text);
+    bt_reliability_csv* csv = NULL;
+    bt_status status = bt_reliability_csv_read(study, &csv, diag);
+    for (int i = 0; csv && i < study->input_count && status == BT_OK; ++i) {
+        bt_reliability_curve c;
+        double factor;
+        bt_display_unit(study->inputs[i].field, &factor);
+        bt_reliability_csv_curve(csv, study->inputs[i].path, &c);
+        to_display(&c, factor);
+        if (c.count > 1)
+            status = draw(study, &study->inputs[i], &c, folder, diag);
+    }
+    bt_reliability_csv_destroy(csv);
     return status;
 }
