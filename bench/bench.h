@@ -18,6 +18,7 @@ void bench_mechanics(void);
 void bench_cable(void);
 void bench_landing(void);
 void bench_campaign(void);
+void bench_ledger(void);
 void bench_rigs(void);
 void bench_surrogate(void);
 void bench_calibration(void);

@@ -8,13 +8,10 @@ static const struct {
     const char* name;
     void (*run)(void);
 } groups[] = {
-    {"mechanics", bench_mechanics},
-    {"cable", bench_cable},
-    {"landing", bench_landing},
-    {"campaign", bench_campaign},
-    {"rigs", bench_rigs},
-    {"surrogate", bench_surrogate},
-    {"calibration", bench_calibration},
+    {"mechanics", bench_mechanics}, {"cable", bench_cable},
+    {"landing", bench_landing},     {"campaign", bench_campaign},
+    {"ledger", bench_ledger},       {"rigs", bench_rigs},
+    {"surrogate", bench_surrogate}, {"calibration", bench_calibration},
 };
 
 int main(int argc, char** argv) {

@@ -40,14 +40,36 @@ static void count_result(bt_campaign_progress* progress, bt_outcome outcome) {
     progress->failed += outcome == BT_FAILED;
 }
 
-static bool note_present(void* user, const bt_ledger_row* row) {
+static void note_present(void* user, int64_t run, bt_outcome outcome) {
     campaign* c = user;
-    if (row->run < 0 || row->run >= c->count)
-        return true;
-    c->present[row->run / 8] = (unsigned char)(c->present[row->run / 8] | 1u << (row->run % 8));
-    if (mine(c, row->run))
-        count_result(c->progress, row->result.outcome);
-    return true;
+    if (run < 0 || run >= c->count)
+        return;
+    c->present[run / 8] = (unsigned char)(c->present[run / 8] | 1u << (run % 8));
+    if (mine(c, run))
+        count_result(c->progress, outcome);
+}
+
+/// What the ledger has. Where that is the beginning of the design, all of it, the ledger's totals
+/// say so; else every run is looked at.
+static bt_status find_present(campaign* c) {
+    bt_ledger_counts counts;
+    int64_t last;
+    BT_TRY(bt_ledger_count(c->ledger, &counts, c->diag));
+    BT_TRY(bt_ledger_last_run(c->ledger, &last, c->diag));
+    if (c->options->shards > 1 || last >= c->count || counts.runs != last + 1)
+        return bt_ledger_scan(c->ledger, note_present, c, c->diag);
+    memset(c->present, 0xff, (size_t)(counts.runs / 8));
+    c->present[counts.runs / 8] = (unsigned char)((1u << (counts.runs % 8)) - 1);
+    c->progress->done = counts.runs;
+    c->progress->engaged = counts.engaged;
+    c->progress->missed = counts.missed;
+    c->progress->failed = counts.failed;
+    return BT_OK;
+}
+
+static int64_t count_mine(const campaign* c) {
+    const int64_t shards = c->options->shards;
+    return shards <= 1 ? c->count : c->count / shards + (c->options->shard < c->count % shards);
 }
 
 static bool next_job(void* user, bt_job* job) {
@@ -147,9 +169,8 @@ static bt_status run_rounds(campaign* c, const bt_study* study) {
 }
 
 static bt_status run(campaign* c, const bt_study* study) {
-    for (int64_t r = 0; r < c->count; ++r)
-        c->progress->total += mine(c, r);
-    BT_TRY(bt_ledger_walk(c->ledger, note_present, c, c->diag));
+    c->progress->total = count_mine(c);
+    BT_TRY(find_present(c));
     c->progress->before = c->progress->done;
     if (c->progress->done >= c->progress->total)
         return commit(c);

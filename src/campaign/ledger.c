@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { APPLICATION_ID = 0x424f4c54 /* "BOLT" */, FORMAT_VERSION = 2, BUSY_WAIT_MS = 60000 };
@@ -73,8 +74,15 @@ static bt_status check_identity(const bt_ledger* ledger, const char* identity, b
     return status;
 }
 
+static bt_status say_damaged(const bt_ledger* ledger, bt_diag* diag) {
+    bt_diag_add(diag, BT_ERROR, bt_ledger_place(ledger),
+                "the ledger is damaged; nothing was changed. Restore it, or move it away and run "
+                "the campaign again");
+    return BT_ERR_IO;
+}
+
 /// One row of text, "ok" when SQLite finds the file whole.
-static bt_status check_pages(bt_ledger* ledger, bt_diag* diag) {
+static bt_status look_through(bt_ledger* ledger, bt_diag* diag) {
     sqlite3_stmt* statement = NULL;
     bool whole = false;
     if (sqlite3_prepare_v2(ledger->db, "PRAGMA quick_check(1)", -1, &statement, NULL) ==
@@ -82,12 +90,20 @@ static bt_status check_pages(bt_ledger* ledger, bt_diag* diag) {
         sqlite3_step(statement) == SQLITE_ROW)
         whole = strcmp((const char*)sqlite3_column_text(statement, 0), "ok") == 0;
     sqlite3_finalize(statement);
-    if (whole)
-        return BT_OK;
-    bt_diag_add(diag, BT_ERROR, bt_ledger_place(ledger),
-                "the ledger is damaged; nothing was changed. Restore it, or move it away and run "
-                "the campaign again");
-    return BT_ERR_IO;
+    return whole ? BT_OK : say_damaged(ledger, diag);
+}
+
+/// A file shorter than its own page count was cut off. A large one is not looked through: SQLite
+/// says so when it meets a damaged page.
+static bt_status check_pages(bt_ledger* ledger, int64_t pages, bt_diag* diag) {
+    static const int64_t small_bytes = 16 << 20;
+    int64_t page_bytes = 0;
+    struct stat info;
+    BT_TRY(bt_ledger_ask(ledger, "PRAGMA page_size", &page_bytes, diag));
+    const int64_t bytes = pages * page_bytes;
+    if (stat(ledger->path, &info) == 0 && info.st_size < bytes)
+        return say_damaged(ledger, diag);
+    return bytes <= small_bytes ? look_through(ledger, diag) : BT_OK;
 }
 
 static bt_status say_other_format(const bt_ledger* ledger, int64_t version, bt_diag* diag) {
@@ -126,7 +142,7 @@ static bt_status check_format(bt_ledger* ledger, bt_ledger_access how, const cha
     }
     if (version != FORMAT_VERSION)
         return say_other_format(ledger, version, diag);
-    BT_TRY(check_pages(ledger, diag));
+    BT_TRY(check_pages(ledger, pages, diag));
     return check_identity(ledger, identity, diag);
 }
 
@@ -152,6 +168,8 @@ static bt_status open_checked(bt_ledger* ledger, bt_ledger_access how, bt_diag* 
     free(identity);
     if (status == BT_OK)
         status = bt_ledger_bind_columns(ledger, how != BT_LEDGER_READ, diag);
+    if (status == BT_OK && how != BT_LEDGER_READ)
+        status = bt_ledger_make_totals(ledger, diag);
     return status;
 }
 

@@ -1,9 +1,10 @@
 /// The ledger of a campaign: one SQLite file, one row per run, open to anyone's SQL.
 ///
 /// Tables: meta (key, value), inputs (idx, path, unit), runs (run, one column per input named by
-/// its path, log_density, status, then the columns of landing/result.h). Views of runs: landings
-/// (all but the failed), misses, failed. SI throughout. A run that diverged has status 'failed' and
-/// no outcome: it can never be taken for a label. Columns that a user adds are left alone.
+/// its path, log_density, status, then the columns of landing/result.h), totals (what the runs
+/// add up to). Views of runs: landings (all but the failed), misses, failed. SI throughout. A run
+/// that diverged has status 'failed' and no outcome: it can never be taken for a label. Columns
+/// that a user adds are left alone.
 #ifndef BT_CAMPAIGN_LEDGER_H
 #define BT_CAMPAIGN_LEDGER_H
 
@@ -22,7 +23,8 @@ typedef enum bt_ledger_access {
 /// Opens the ledger of a study at a path.
 ///
 /// Refused with BT_ERR_IO, said in diag, nothing changed: a file that is not a bolter ledger,
-/// a damaged one, one of another format, one that cannot be read or written; and a ledger of
+/// a damaged one (large files are not read for that: damage shows where it is met), one of another
+/// format, one that cannot be read or written; and a ledger of
 /// another study (the first key that differs is named). What a writer that was killed left behind
 /// is rolled back first, also for reading. Columns of results that this version has and the file
 /// has not are added when it is opened for writing, and read as empty when it is not.
@@ -48,6 +50,8 @@ typedef struct bt_ledger_counts {
     int64_t runs, engaged, missed, failed;
 } bt_ledger_counts;
 
+/// Read from one row: the time does not grow with the ledger, unless somebody changed its runs by
+/// SQL; then they are counted once.
 BT_CHECKED bt_status bt_ledger_count(bt_ledger* ledger, bt_ledger_counts* counts, bt_diag* diag);
 
 /// One run as it stands in the ledger. Of the bounces only the first is kept
@@ -64,12 +68,20 @@ typedef bool bt_ledger_visit(void* user, const bt_ledger_row* row);
 BT_CHECKED bt_status bt_ledger_walk(bt_ledger* ledger, bt_ledger_visit* visit, void* user,
                                     bt_diag* diag);
 
+/// The same for the run's number and outcome alone (BT_FAILED: it has none); far faster.
+typedef void bt_ledger_glance(void* user, int64_t run, bt_outcome outcome);
+BT_CHECKED bt_status bt_ledger_scan(bt_ledger* ledger, bt_ledger_glance* visit, void* user,
+                                    bt_diag* diag);
+
+/// The greatest run; -1 when there is none.
+BT_CHECKED bt_status bt_ledger_last_run(bt_ledger* ledger, int64_t* run, bt_diag* diag);
+
 /// One run. BT_ERR_ARG when the ledger does not have it.
 BT_CHECKED bt_status bt_ledger_get(bt_ledger* ledger, int64_t run, bt_ledger_row* row,
                                    bt_diag* diag);
 
-/// Hash of everything the runs say, in order of run number, but for the wall-clock times: equal
-/// for two ledgers with the same bits, whatever the order or the interruptions they grew by.
+/// Hash of everything the runs say but for the wall-clock times: equal for two ledgers with the
+/// same bits, whatever the order or the interruptions they grew by. As fast as bt_ledger_count.
 BT_CHECKED bt_status bt_ledger_hash(bt_ledger* ledger, uint64_t* hash, bt_diag* diag);
 
 /// Adds the runs of another ledger of the same study (a shard); committed as a whole or not at

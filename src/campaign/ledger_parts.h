@@ -8,6 +8,12 @@
 
 #include <sqlite3.h>
 
+/// What the runs add up to: of the file, with those of the transaction under way.
+typedef struct bt_ledger_totals {
+    bt_ledger_counts counts;
+    uint64_t hash; ///< sum of bt_ledger_hash_run, modulo 2^64
+} bt_ledger_totals;
+
 struct bt_ledger {
     sqlite3* db;
     sqlite3_stmt* insert;
@@ -16,6 +22,7 @@ struct bt_ledger {
     const bt_study* study;
     bt_axes axes;
     bool in_transaction;
+    bt_ledger_totals totals; ///< while in_transaction
 };
 
 static inline bt_where bt_ledger_place(const bt_ledger* ledger) {
@@ -54,5 +61,27 @@ BT_CHECKED bt_status bt_ledger_make_tables(bt_ledger* ledger, bt_diag* diag);
 /// Finds which columns the table of runs has; those that this version added since are added to the
 /// file when it is open for writing, and read as empty when it is not. Prepares ledger->select.
 BT_CHECKED bt_status bt_ledger_bind_columns(bt_ledger* ledger, bool writing, bt_diag* diag);
+
+/// Hash of everything a run says but its wall-clock time, as the file keeps it.
+uint64_t bt_ledger_hash_run(const bt_ledger* ledger, int64_t run, const double* x,
+                            double log_density, const bt_landing_result* result);
+
+/// Adds a run to the totals in memory.
+void bt_ledger_count_run(bt_ledger* ledger, int64_t run, const double* x, double log_density,
+                         const bt_landing_result* result);
+
+/// The totals of the file into ledger->totals; adds them up where the file does not know.
+BT_CHECKED bt_status bt_ledger_load_totals(bt_ledger* ledger, bt_diag* diag);
+
+/// And back, inside a transaction.
+BT_CHECKED bt_status bt_ledger_store_totals(bt_ledger* ledger, bt_diag* diag);
+
+/// Makes the table of totals and its triggers where there is none (files of early 0.2.0).
+BT_CHECKED bt_status bt_ledger_make_totals(bt_ledger* ledger, bt_diag* diag);
+
+/// Adds a run like bt_ledger_add. BT_ERR_ARG, nothing said or lost: the ledger has it already.
+BT_CHECKED bt_status bt_ledger_add_new(bt_ledger* ledger, int64_t run, const double* x,
+                                       double log_density, const bt_landing_result* result,
+                                       bt_diag* diag);
 
 #endif

@@ -86,30 +86,62 @@ static int bind_row(const bt_ledger* ledger, int64_t run, const double* x, doubl
     return code;
 }
 
-bt_status bt_ledger_add(bt_ledger* ledger, int64_t run, const double* x, double log_density,
-                        const bt_landing_result* result, bt_diag* diag) {
+/// Takes the right to write, and what the runs add up to so far.
+static bt_status begin(bt_ledger* ledger, bt_diag* diag) {
+    if (ledger->in_transaction)
+        return BT_OK;
+    BT_TRY(bt_ledger_execute(ledger, "BEGIN IMMEDIATE", "cannot write", diag));
+    const bt_status status = bt_ledger_load_totals(ledger, diag);
+    if (status == BT_OK)
+        ledger->in_transaction = true;
+    else
+        bt_ledger_roll_back(ledger);
+    return status;
+}
+
+/// Adds a row; what SQLite says of it.
+static int insert_row(bt_ledger* ledger, int64_t run, const double* x, double log_density,
+                      const bt_landing_result* result) {
+    sqlite3_reset(ledger->insert);
+    const int code = bind_row(ledger, run, x, log_density, result);
+    return code == SQLITE_OK ? sqlite3_step(ledger->insert) : code;
+}
+
+static bt_status add(bt_ledger* ledger, bool known_is_error, int64_t run, const double* x,
+                     double log_density, const bt_landing_result* result, bt_diag* diag) {
     if (!ledger->insert)
         BT_TRY(prepare_insert(ledger, diag));
-    if (!ledger->in_transaction)
-        BT_TRY(bt_ledger_execute(ledger, "BEGIN IMMEDIATE", "cannot write", diag));
-    ledger->in_transaction = true;
-
+    BT_TRY(begin(ledger, diag));
+    bt_status status = BT_OK;
+    if (insert_row(ledger, run, x, log_density, result) == SQLITE_DONE)
+        bt_ledger_count_run(ledger, run, x, log_density, result);
+    else if (sqlite3_extended_errcode(ledger->db) == SQLITE_CONSTRAINT_PRIMARYKEY &&
+             !known_is_error)
+        status = BT_ERR_ARG;
+    else
+        status = bt_ledger_sql_error(ledger, "cannot write", diag);
     sqlite3_reset(ledger->insert);
-    if (bind_row(ledger, run, x, log_density, result) == SQLITE_OK &&
-        sqlite3_step(ledger->insert) == SQLITE_DONE) {
-        sqlite3_reset(ledger->insert);
-        return BT_OK;
-    }
-    const bt_status status = bt_ledger_sql_error(ledger, "cannot write", diag);
-    sqlite3_reset(ledger->insert);
-    bt_ledger_roll_back(ledger);
+    if (status == BT_ERR_IO)
+        bt_ledger_roll_back(ledger);
     return status;
+}
+
+bt_status bt_ledger_add(bt_ledger* ledger, int64_t run, const double* x, double log_density,
+                        const bt_landing_result* result, bt_diag* diag) {
+    return add(ledger, true, run, x, log_density, result, diag);
+}
+
+bt_status bt_ledger_add_new(bt_ledger* ledger, int64_t run, const double* x, double log_density,
+                            const bt_landing_result* result, bt_diag* diag) {
+    return add(ledger, false, run, x, log_density, result, diag);
 }
 
 bt_status bt_ledger_commit(bt_ledger* ledger, bt_diag* diag) {
     if (!ledger->in_transaction)
         return BT_OK;
-    const bt_status status = bt_ledger_execute(ledger, "COMMIT", "cannot write", diag);
+    bt_status status = bt_ledger_store_totals(ledger, diag);
+    if (status == BT_OK)
+        status = bt_ledger_execute(ledger, "COMMIT", "cannot write", diag);
     if (status != BT_OK)
         bt_ledger_roll_back(ledger);
     ledger->in_transaction = false;
@@ -117,16 +149,6 @@ bt_status bt_ledger_commit(bt_ledger* ledger, bt_diag* diag) {
 }
 
 // --- reading --------------------------------------------------------------------------------
-
-bt_status bt_ledger_count(bt_ledger* ledger, bt_ledger_counts* counts, bt_diag* diag) {
-    BT_TRY(bt_ledger_ask(ledger, "SELECT count(*) FROM runs", &counts->runs, diag));
-    BT_TRY(bt_ledger_ask(ledger, "SELECT count(*) FROM runs WHERE outcome = 'engaged'",
-                         &counts->engaged, diag));
-    BT_TRY(bt_ledger_ask(ledger, "SELECT count(*) FROM runs WHERE outcome = 'missed'",
-                         &counts->missed, diag));
-    return bt_ledger_ask(ledger, "SELECT count(*) FROM runs WHERE status = 'failed'",
-                         &counts->failed, diag);
-}
 
 static double column_real(sqlite3_stmt* s, int at) {
     return sqlite3_column_type(s, at) == SQLITE_NULL ? NAN : sqlite3_column_double(s, at);
@@ -239,4 +261,24 @@ bt_status bt_ledger_get(bt_ledger* ledger, int64_t run, bt_ledger_row* row, bt_d
     found f = {.row = row};
     BT_TRY(walk(ledger, "WHERE run = ?", run, take_one, &f, diag));
     return f.any ? BT_OK : BT_ERR_ARG;
+}
+
+bt_status bt_ledger_scan(bt_ledger* ledger, bt_ledger_glance* visit, void* user, bt_diag* diag) {
+    sqlite3_stmt* s = NULL;
+    int code =
+        sqlite3_prepare_v2(ledger->db, "SELECT run, outcome FROM runs ORDER BY run", -1, &s, NULL);
+    while (code == SQLITE_OK || code == SQLITE_ROW) {
+        code = sqlite3_step(s);
+        if (code == SQLITE_ROW)
+            visit(user, sqlite3_column_int64(s, 0),
+                  read_outcome((const char*)sqlite3_column_text(s, 1)));
+    }
+    const bt_status status =
+        code == SQLITE_DONE ? BT_OK : bt_ledger_sql_error(ledger, "cannot read", diag);
+    sqlite3_finalize(s);
+    return status;
+}
+
+bt_status bt_ledger_last_run(bt_ledger* ledger, int64_t* run, bt_diag* diag) {
+    return bt_ledger_ask(ledger, "SELECT ifnull(max(run), -1) FROM runs", run, diag);
 }

@@ -56,7 +56,8 @@ bt_status bt_ledger_make_tables(bt_ledger* ledger, bt_diag* diag) {
                           "CREATE VIEW landings AS SELECT * FROM runs WHERE status = 'done';"
                           "CREATE VIEW misses AS SELECT * FROM runs WHERE outcome = 'missed';"
                           "CREATE VIEW failed AS SELECT * FROM runs WHERE status = 'failed';");
-    return bt_ledger_execute_text(ledger, text, diag);
+    BT_TRY(bt_ledger_execute_text(ledger, text, diag));
+    return bt_ledger_make_totals(ledger, diag);
 }
 
 /// Whether the table of runs has a column.

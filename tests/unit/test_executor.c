@@ -3,7 +3,7 @@
 #define _GNU_SOURCE /* nftw */
 #include "near.h"
 
-#include "campaign/backend.h"
+#include "campaign/simulated_backend.h"
 #include "toy_study.h"
 
 #include <string.h>
@@ -225,12 +225,57 @@ static void a_stopped_landing_is_no_result(void** state) {
 
 #define MODEL(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 
+/// A thousand workers on paper.
+typedef struct crowd {
+    int64_t next, count;
+    double work_s, end_s;
+} crowd;
+
+/// Ten milliseconds on average, from half to one and a half of it.
+static bool give_cost(void* user, bt_job* job) {
+    crowd* c = user;
+    job->run = c->next;
+    job->x[0] = 0.01 * (0.5 + (double)(c->next * 7919 % 1000) / 999);
+    return c->next++ < c->count;
+}
+
+static bt_status take_cost(void* user, const bt_job* job, const bt_landing_result* result) {
+    crowd* c = user;
+    (void)job;
+    c->work_s += result->wall_s;
+    c->end_s = fmax(c->end_s, result->end_time_s);
+    return BT_OK;
+}
+
+static double busy(int workers, int64_t landings) {
+    crowd c = {.count = landings};
+    const bt_axes axes = {.count = 1};
+    const bt_executor executor = {.axes = &axes,
+                                  .threads = workers,
+                                  .source = give_cost,
+                                  .sink = take_cost,
+                                  .user = &c,
+                                  .backend = &bt_simulated_backend};
+    assert_int_equal(bt_executor_run(&executor, NULL), BT_OK);
+    BT_ASSERT_NEAR(c.work_s, 0.01 * (double)landings, 1e-9, 0);
+    return c.work_s / (workers * c.end_s);
+}
+
+/// One worker is never idle; a thousand are kept busy, the last jobs of the batch included.
+static void a_thousand_workers_are_kept_busy(void** state) {
+    (void)state;
+    const double one = busy(1, 1000), thousand = busy(1000, 200000);
+    assert_true(one > 0.99 && one <= 1);
+    assert_true(thousand > 0.95 && thousand <= 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_job_goes_through_any_back_end_once),
         cmocka_unit_test(a_stop_leaves_jobs_over_but_none_in_hand),
         cmocka_unit_test(an_error_of_the_sink_ends_the_batch),
         cmocka_unit_test(an_error_of_the_back_end_is_said),
+        cmocka_unit_test(a_thousand_workers_are_kept_busy),
         MODEL(impossible_numbers_are_failed_landings_with_key_and_limit),
         MODEL(inertia_is_accepted_up_to_the_limit_named),
         MODEL(a_stopped_landing_is_no_result),

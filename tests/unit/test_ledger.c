@@ -557,6 +557,70 @@ static int64_t sql_count(fixture* f, const char* text) {
     return number;
 }
 
+static uint64_t content(fixture* f) {
+    bt_ledger* ledger = NULL;
+    uint64_t hash = 0;
+    assert_int_equal(bt_ledger_open(f->path, &f->study, BT_LEDGER_READ, &ledger, &f->diag), BT_OK);
+    assert_int_equal(bt_ledger_hash(ledger, &hash, &f->diag), BT_OK);
+    bt_ledger_close(ledger);
+    return hash;
+}
+
+static void fill(fixture* f, int first, int end) {
+    static const bt_outcome outcomes[] = {BT_ENGAGED, BT_MISSED, BT_FAILED};
+    bt_ledger* ledger = opened(f);
+    for (int run = first; run < end; ++run)
+        add(f, ledger, run, outcomes[run % 3]);
+    assert_int_equal(bt_ledger_commit(ledger, &f->diag), BT_OK);
+    bt_ledger_close(ledger);
+}
+
+/// The totals are those of adding up the rows as the file keeps them: failed runs, NaN, -0.
+static void totals_are_what_the_rows_add_up_to(void** state) {
+    fixture* f = *state;
+    bt_ledger* ledger = opened(f);
+    bt_landing_result r = result_of(50, BT_FAILED);
+    r.mode = BT_MODE_DIRECT;
+    r.margin_m = -NAN;
+    r.end_time_s = -0.0;
+    const double x[4] = {-0.0, 1, 2, 3};
+    assert_int_equal(bt_ledger_add(ledger, 50, x, -0.0, &r, &f->diag), BT_OK);
+    assert_int_equal(bt_ledger_commit(ledger, &f->diag), BT_OK);
+    bt_ledger_close(ledger);
+    fill(f, 0, 30);
+    const uint64_t kept = content(f);
+    assert_int_equal(sql_count(f, "SELECT failed FROM totals"), 11);
+    sql(f, "UPDATE totals SET runs = NULL");
+    assert_true(content(f) == kept);
+    sql(f, "DROP TABLE totals; DROP TRIGGER runs_inserted; DROP TRIGGER runs_updated; "
+           "DROP TRIGGER runs_deleted"); // a file of early 0.2.0
+    assert_true(content(f) == kept);
+    fill(f, 30, 31);
+    assert_int_equal(sql_count(f, "SELECT runs FROM totals WHERE pending = 0"), 32);
+}
+
+static void what_a_user_does_to_the_runs_is_counted(void** state) {
+    fixture* f = *state;
+    fill(f, 0, 12);
+    const uint64_t whole = content(f);
+    bt_ledger* ledger = NULL;
+
+    sql(f, "CREATE TABLE away AS SELECT * FROM runs WHERE run = 4; DELETE FROM runs WHERE run = 4");
+    assert_int_equal(bt_ledger_open(f->path, &f->study, BT_LEDGER_READ, &ledger, &f->diag), BT_OK);
+    assert_int_equal(count(f, ledger), 11);
+    bt_ledger_close(ledger);
+    assert_true(content(f) != whole);
+
+    sql(f, "INSERT INTO runs SELECT * FROM away");
+    assert_true(content(f) == whole);
+    sql(f, "UPDATE runs SET margin_m = margin_m + 1 WHERE run = 7");
+    assert_true(content(f) != whole);
+    sql(f, "UPDATE runs SET margin_m = margin_m - 1 WHERE run = 7");
+
+    fill(f, 12, 13); // the next writer puts the totals right
+    assert_int_equal(sql_count(f, "SELECT runs FROM totals WHERE pending = 0"), 13);
+}
+
 static void every_result_is_a_column(void** state) {
     fixture* f = *state;
     bt_ledger_close(opened(f));
@@ -707,6 +771,8 @@ static void a_path_longer_than_sqlite_takes_is_said(void** state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(remarks_and_density_come_back_to_the_bit),
+        TEST(totals_are_what_the_rows_add_up_to),
+        TEST(what_a_user_does_to_the_runs_is_counted),
         TEST(every_result_is_a_column),
         TEST(a_column_that_a_user_adds_is_left_alone),
         TEST(a_result_that_the_file_does_not_have_reads_empty_and_is_added),
