@@ -3,6 +3,7 @@
 #include "base/units.h"
 #include "calibration/simulated_case.h"
 #include "study/reader.h"
+#include "study/rig_inputs.h"
 
 #include <limits.h>
 #include <math.h>
@@ -323,7 +324,8 @@ static void read_trend(reading* r, bt_target* t, const bt_node* node, const bt_n
 }
 
 /// Reads the CSV of a curve, beside the calibration file, and finds its columns.
-static void read_curve(reading* r, bt_target* t, const bt_node* file, const bt_simulated_case* e) {
+static void read_curve(reading* r, bt_target* t, const bt_node* file,
+                       const bt_measured_columns* columns, const bt_simulated_case* e) {
     char path[BT_FILE_PATH_MAX];
     bt_calibration* c = r->c;
     const char* slash = strrchr(c->file_name, '/');
@@ -338,7 +340,7 @@ static void read_curve(reading* r, bt_target* t, const bt_node* file, const bt_s
     }
     bt_diag diag = bt_reader_diag(&r->reader);
     const int errors = r->reader.errors;
-    bt_status status = bt_measured_read(name->text, &t->measured, &diag);
+    bt_status status = bt_measured_read(name->text, columns, &t->measured, &diag);
     if (status == BT_OK) {
         status = bt_simulated_case_bind(e->kind, t->measured, &diag);
         t->row_count = t->measured->count;
@@ -350,8 +352,8 @@ static void read_curve(reading* r, bt_target* t, const bt_node* file, const bt_s
                         bt_status_text(status));
 }
 
-/// `curve: FILE.csv` with `of`: landing or one of the rigs.
-static void read_curve_target(reading* r, bt_target* t, const bt_node* node, const bt_node* file,
+/// `curve: FILE.csv`, or a mapping of its columns, with `of`: landing or one of the rigs.
+static void read_curve_target(reading* r, bt_target* t, const bt_node* node, const bt_node* curve,
                               bt_simulated_case* e, const char* path) {
     static const char* const kinds[] = {"landing",     "nose_drop",   "main_drop", "hook_rebound",
                                         "nose_static", "main_static", NULL};
@@ -364,7 +366,15 @@ static void read_curve_target(reading* r, bt_target* t, const bt_node* node, con
     snprintf(place, sizeof place, "%s.of", path);
     if (of && bt_reader_choice(&r->reader, kinds, of, place, &kind))
         e->kind = (bt_simulated_case_kind)kind;
-    if (!of || !tolerance || file->kind != BT_NODE_SCALAR) {
+    const bt_node* file;
+    bt_measured_columns columns;
+    const int errors = r->reader.errors;
+    char key[PLACE_SIZE];
+    snprintf(key, sizeof key, "%s.curve", path);
+    const bool named = bt_curve_take(&r->reader, &r->document, curve, key, &file, &columns);
+    if (!named && r->reader.errors > errors)
+        return;
+    if (!of || !tolerance || !named) {
         bt_reader_error(&r->reader, node->where,
                         "%s: a curve wants `of` (landing or a rig) and "
                         "`tolerance`",
@@ -372,7 +382,7 @@ static void read_curve_target(reading* r, bt_target* t, const bt_node* node, con
         return;
     }
     snprintf(t->name, sizeof t->name, "%s of %s", file->text, kinds[kind]);
-    read_curve(r, t, file, e);
+    read_curve(r, t, file, &columns, e);
     if (!t->measured)
         return;
     char unit[48];

@@ -188,6 +188,17 @@ bt_status bt_simulated_case_run(bt_lander* lander, bt_simulated_case_kind kind,
 
 // --- columns of a curve -----------------------------------------------------------------------
 
+/// What is followed through a run is passed once: a loop is no curve to follow.
+static bt_status refuse_loop(const bt_measured* measured, bt_diag* diag) {
+    if (measured->ordered)
+        return BT_OK;
+    bt_diag_add(diag, BT_ERROR, measured->fall_place,
+                "%s goes back; a curve is followed over what "
+                "never decreases",
+                measured->x_name);
+    return BT_ERR_INPUT;
+}
+
 static bt_status bind_landing(bt_measured* measured, bt_diag* diag) {
     const char* names[LANDING_COLUMN_MAX];
     for (int i = 0; i < bt_view_column_count; ++i)
@@ -198,6 +209,7 @@ static bt_status bind_landing(bt_measured* measured, bt_diag* diag) {
 
 bt_status bt_simulated_case_bind(bt_simulated_case_kind kind, bt_measured* measured,
                                  bt_diag* diag) {
+    BT_TRY(refuse_loop(measured, diag));
     if (kind == BT_CASE_LANDING)
         return bind_landing(measured, diag);
     const char* names[1 + BT_RIG_CHANNEL_MAX] = {"time_s"};

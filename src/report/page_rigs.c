@@ -100,10 +100,11 @@ static void write_measured(bt_json* json, const rig_plot* plot, const bt_rig_rec
     bt_json_begin_array(json, "measured");
     for (int i = 0; i < curves->count; ++i) {
         const bt_measured* m = curves->measured[i];
+        const int stride = 1 + m->count / POINTS_MOST;
         bool shown = false;
         for (int t = 0; t < TRACES_MAX && plot->trace[t].channel; ++t)
             shown = shown || m->y_column == column_of(record, plot->trace[t].channel);
-        for (int k = 0; shown && m->x_column == across && k < m->count; ++k) {
+        for (int k = 0; shown && m->x_column == across && k < m->count; k += stride) {
             bt_json_begin_object(json, NULL);
             bt_json_rounded(json, "x", x_scale * m->x[k], 6);
             bt_json_rounded(json, "y", plot->scale * m->y[k], 6);

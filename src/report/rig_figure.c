@@ -160,11 +160,32 @@ static const char* base_name(const char* path) {
     return slash ? slash + 1 : path;
 }
 
+enum { THINNED_MAX = 4100 };
+
+/// Rows that are drawn, not much above 4000: a run of fine steps would make pictures of megabytes.
+static int thinned(const double* values, int rows, double* kept) {
+    const int stride = 1 + rows / 4000;
+    int count = 0;
+    for (int i = 0; i < rows; i += stride)
+        kept[count++] = values[i];
+    if (rows > 0 && (rows - 1) % stride != 0)
+        kept[count++] = values[rows - 1];
+    return count;
+}
+
 static void add_measured(drawing* d, const bt_measured* m, double x_scale, double scale,
                          bool second) {
     char label[96];
+    double* x = malloc(THINNED_MAX * sizeof *x);
+    double* y = malloc(THINNED_MAX * sizeof *y);
     snprintf(label, sizeof label, "%s (%.60s)", m->y_name, base_name(m->file));
-    add(d, label, BT_SERIES_POINTS, m->x, x_scale, m->y, m->count, scale, second);
+    if (x && y) {
+        const int count = thinned(m->x, m->count, x);
+        thinned(m->y, m->count, y);
+        add(d, label, BT_SERIES_POINTS, x, x_scale, y, count, scale, second);
+    }
+    free(x);
+    free(y);
 }
 
 /// Until when the first impact lasts, and half as long again, s.
@@ -195,21 +216,10 @@ static bt_status write(drawing* d, const bt_figure* about, const char* folder, b
     return status;
 }
 
-/// Rows that are drawn, not much above 4000: a run of fine steps would make pictures of megabytes.
-static int thinned(const double* values, int rows, double* kept) {
-    const int stride = 1 + rows / 4000;
-    int count = 0;
-    for (int i = 0; i < rows; i += stride)
-        kept[count++] = values[i];
-    if (rows > 0 && (rows - 1) % stride != 0)
-        kept[count++] = values[rows - 1];
-    return count;
-}
-
 static void add_line(drawing* d, const bt_rig_record* record, const trace* line, int across,
                      int rows) {
-    double* x = malloc((size_t)(rows + 2) * sizeof *x);
-    double* y = malloc((size_t)(rows + 2) * sizeof *y);
+    double* x = malloc(THINNED_MAX * sizeof *x);
+    double* y = malloc(THINNED_MAX * sizeof *y);
     if (x && y) {
         const int count = thinned(record->columns[across], rows, x);
         thinned(record->columns[column_of(record, line->channel)], rows, y);

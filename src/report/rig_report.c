@@ -1,6 +1,7 @@
 #include "report/rig_report.h"
 
 #include "base/text.h"
+#include "report/rig_loop.h"
 
 #include <math.h>
 #include <string.h>
@@ -27,7 +28,8 @@ static bt_status read_curve(const bt_rig_input* input, int i, const bt_rig_recor
     bt_measured* measured = NULL;
     naming named = {input->curves[i].where, diag};
     bt_diag placing = {.sink = place, .user = &named};
-    bt_status status = bt_measured_read(input->curves[i].path, &measured, &placing);
+    bt_status status =
+        bt_measured_read(input->curves[i].path, &input->curves[i].columns, &measured, &placing);
     if (status != BT_OK)
         return status;
     status = bt_measured_bind(measured, names->names, names->column_count, diag);
@@ -176,6 +178,21 @@ static void add_curve(bt_report_table* table, const bt_rig_record* record, const
         add_points(table, record, m, tolerance);
 }
 
+static void add_loop(bt_report_table* table, const bt_rig_record* record,
+                     const bt_rig_curves* curves) {
+    bt_loop_score s;
+    if (!bt_rig_loop_score(record, curves->measured, curves->count, &s))
+        return;
+    bt_report_table_remark(
+        table,
+        "load over stroke, computed (measured): %.4g kJ (%.4g) to a stroke of "
+        "%.4g mm (%.4g), efficiency %.3f (%.3f); area between the loops %.1f %% of "
+        "the measured work",
+        1e-3 * s.computed.energy_J, 1e-3 * s.measured.energy_J, 1e3 * s.computed.stroke_max_m,
+        1e3 * s.measured.stroke_max_m, s.computed.efficiency, s.measured.efficiency,
+        100 * s.area_share);
+}
+
 bt_report_table* bt_rig_table(const bt_rig_result* result, const bt_rig_record* record,
                               const bt_rig_curves* curves, double tolerance) {
     bt_report_table* table = bt_report_table_create(NULL, columns, COLUMN_COUNT);
@@ -186,6 +203,7 @@ bt_report_table* bt_rig_table(const bt_rig_result* result, const bt_rig_record* 
                                result->remarks[i].time_s);
     for (int i = 0; i < curves->count; ++i)
         add_curve(table, record, curves->measured[i], tolerance);
+    add_loop(table, record, curves);
     return table;
 }
 
@@ -217,6 +235,26 @@ static void write_points(bt_json* json, const bt_rig_record* record, const bt_me
     bt_json_end_array(json);
 }
 
+static void write_loop(bt_json* json, const char* key, const bt_loop* loop) {
+    bt_json_begin_object(json, key);
+    bt_json_number(json, "stroke_max_m", loop->stroke_max_m);
+    bt_json_number(json, "force_max_N", loop->force_max_N);
+    bt_json_number(json, "energy_J", loop->energy_J);
+    bt_json_number(json, "efficiency", loop->efficiency);
+    bt_json_end_object(json);
+}
+
+static void write_loops(bt_json* json, const bt_rig_record* record, const bt_rig_curves* curves) {
+    bt_loop_score s;
+    if (!bt_rig_loop_score(record, curves->measured, curves->count, &s))
+        return;
+    bt_json_begin_object(json, "load_over_stroke");
+    write_loop(json, "measured", &s.measured);
+    write_loop(json, "computed", &s.computed);
+    bt_json_number(json, "area_between_percent", 100 * s.area_share);
+    bt_json_end_object(json);
+}
+
 void bt_rig_write_json(bt_json* json, const bt_rig_result* result, const bt_rig_record* record,
                        const bt_rig_curves* curves, double tolerance) {
     bt_json_begin_object(json, "metrics");
@@ -246,6 +284,7 @@ void bt_rig_write_json(bt_json* json, const bt_rig_result* result, const bt_rig_
         bt_json_end_object(json);
     }
     bt_json_end_array(json);
+    write_loops(json, record, curves);
     bt_json_integer(json, "steps", result->steps);
     bt_json_number(json, "end_time_s", result->end_time_s);
 }

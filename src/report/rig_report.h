@@ -34,7 +34,7 @@ bt_report_table* bt_rig_table(const bt_rig_result* result, const bt_rig_record* 
                               const bt_rig_curves* curves, double tolerance);
 
 /// Members of the present object: `metrics` by name, `curves` (a static rig's with their `points`),
-/// `steps`, `end_time_s`.
+/// `load_over_stroke` where it was measured, `steps`, `end_time_s`.
 void bt_rig_write_json(bt_json* json, const bt_rig_result* result, const bt_rig_record* record,
                        const bt_rig_curves* curves, double tolerance);
 

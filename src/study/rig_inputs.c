@@ -25,31 +25,143 @@ static const char* path_of(bt_document* names, const char* study_path, const bt_
     return kept ? kept->text : NULL;
 }
 
-static void take_curve(bt_reader* reader, bt_document* names, const char* study_path,
-                       const bt_node* node, const char* key, bt_rig_input* input) {
-    if (node->refused)
-        return;
-    if (node->kind != BT_NODE_SCALAR || *node->text == '\0') {
-        bt_reader_error(reader, node->where,
-                        "%s: the name of a CSV file is wanted here, or a sequence of such names",
-                        key);
-        return;
-    }
-    if (!study_path) {
-        bt_reader_error(reader, node->where, "%s: a file cannot be named here", key);
+/// One reading of measured curves: where they go, and what is said of them.
+typedef struct curve_reading {
+    bt_reader* reader;
+    bt_document* names;
+    const char* study_path;
+    const char* key; ///< "rigs.nose_drop.reference.curve"
+    bt_rig_input* input;
+} curve_reading;
+
+/// A text that outlives the reading; NULL when memory is out, or for NULL.
+static const char* keep(bt_document* names, const bt_node* node) {
+    const bt_node* kept =
+        node ? bt_document_node(names, BT_NODE_SCALAR, BT_NOWHERE, node->text, strlen(node->text))
+             : NULL;
+    return kept ? kept->text : NULL;
+}
+
+static void add_curve(const curve_reading* r, const bt_node* file,
+                      const bt_measured_columns* columns) {
+    bt_rig_input* input = r->input;
+    if (!r->study_path) {
+        bt_reader_error(r->reader, file->where, "%s: a file cannot be named here", r->key);
         return;
     }
     if (input->curve_count == BT_CURVES_MAX) {
-        bt_reader_error(reader, node->where, "%s: more than %d curves", key, (int)BT_CURVES_MAX);
+        bt_reader_error(r->reader, file->where, "%s: more than %d curves", r->key,
+                        (int)BT_CURVES_MAX);
         return;
     }
-    const char* path = path_of(names, study_path, node);
+    const char* path = path_of(r->names, r->study_path, file);
     if (!path) {
-        bt_reader_error(reader, node->where, "%s: the name is too long", key);
+        bt_reader_error(r->reader, file->where, "%s: the name is too long", r->key);
         return;
     }
     input->curves[input->curve_count].path = path;
-    input->curves[input->curve_count++].where = node->where;
+    input->curves[input->curve_count].columns = *columns;
+    input->curves[input->curve_count++].where = file->where;
+}
+
+static bool is_text(const bt_node* node) {
+    return node && node->kind == BT_NODE_SCALAR && *node->text;
+}
+
+/// `x: Time` is the time; `x: {stroke: Stroke}` names the history's column.
+static bool take_x(bt_reader* reader, bt_document* names, const bt_node* x, const char* key,
+                   bt_measured_columns* columns) {
+    columns->x_name = "time";
+    if (!x)
+        return true;
+    const bt_node* heading = x->kind == BT_NODE_MAPPING && x->count == 1 ? x->first : x;
+    if (!is_text(heading)) {
+        bt_reader_error(
+            reader, x->where,
+            "%s.x: the heading of a column is wanted here, as in x: Time, or x: {stroke: "
+            "Stroke}",
+            key);
+        return false;
+    }
+    columns->x_heading = keep(names, heading);
+    if (heading != x)
+        columns->x_name = keep(names, heading->key);
+    return true;
+}
+
+static void take_y(bt_document* names, const bt_node* y, bt_measured_columns* columns) {
+    columns->y_name = keep(names, y->key);
+    columns->y_heading = keep(names, y);
+}
+
+/// What a mapping says but its y: columns, and the file in *file. False after reporting an error.
+static bool take_mapping(bt_reader* reader, bt_document* names, const bt_node* node,
+                         const char* key, const bt_node** file, bt_measured_columns* columns) {
+    static const char* const known[] = {"file", "x", "y", "offset", NULL};
+    const bt_node *y = bt_node_child(node, "y"), *offset = bt_node_child(node, "offset");
+    const int before = reader->errors;
+    *columns = (bt_measured_columns){.where = node->where, .offset = keep(names, offset)};
+    *file = bt_node_child(node, "file");
+    bt_reader_known_keys(reader, node, key, known, NULL);
+    if (!is_text(*file))
+        bt_reader_error(reader, node->where, "%s.file: missing; the name of a CSV file is wanted",
+                        key);
+    if (y && y->kind != BT_NODE_MAPPING)
+        bt_reader_error(reader, y->where,
+                        "%s.y: columns are wanted here by their name in the history, as in y: "
+                        "{stroke: Stroke, strut_force: Load cell}",
+                        key);
+    take_x(reader, names, bt_node_child(node, "x"), key, columns);
+    if (!y)
+        columns->x_name = NULL; // the headings are the history's names
+    return reader->errors == before;
+}
+
+bool bt_curve_take(bt_reader* reader, bt_document* names, const bt_node* node, const char* key,
+                   const bt_node** file, bt_measured_columns* columns) {
+    *file = node;
+    *columns = (bt_measured_columns){.where = node->where};
+    if (node->kind != BT_NODE_MAPPING)
+        return is_text(node);
+    if (!take_mapping(reader, names, node, key, file, columns))
+        return false;
+    const bt_node* y = bt_node_child(node, "y");
+    if (y && y->count != 1) {
+        bt_reader_error(reader, y->where, "%s.y: one column is wanted here", key);
+        return false;
+    }
+    if (y)
+        take_y(names, y->first, columns);
+    return true;
+}
+
+/// {file: drop.csv, x: Time, y: {stroke: Stroke, strut_force: Load cell}, offset: 12.4 ms}: a curve
+/// for each y.
+static void take_curves(const curve_reading* r, const bt_node* node) {
+    const bt_node *file, *y = bt_node_child(node, "y");
+    bt_measured_columns columns;
+    if (!take_mapping(r->reader, r->names, node, r->key, &file, &columns))
+        return;
+    if (!y)
+        add_curve(r, file, &columns);
+    for (const bt_node* one = y ? y->first : NULL; one; one = one->next) {
+        take_y(r->names, one, &columns);
+        add_curve(r, file, &columns);
+    }
+}
+
+static void take_curve(const curve_reading* r, const bt_node* node) {
+    if (node->refused)
+        return;
+    if (node->kind == BT_NODE_MAPPING)
+        take_curves(r, node);
+    else if (is_text(node))
+        add_curve(r, node, &(bt_measured_columns){.where = node->where});
+    else
+        bt_reader_error(r->reader, node->where,
+                        "%s: the name of a CSV file is wanted here, a mapping with file, x, y and "
+                        "offset, or a sequence of such",
+                        r->key);
 }
 
 /// A key that is not there gets a value; the place is its mapping's.
@@ -77,11 +189,12 @@ void bt_rig_inputs_take(bt_reader* reader, bt_document* names, const char* study
             continue;
         char key[64];
         snprintf(key, sizeof key, "rigs.%s.reference.curve", bt_rig_keys[kind]);
+        const curve_reading r = {reader, names, study_path, key, input};
         if (curve->kind != BT_NODE_SEQUENCE)
-            take_curve(reader, names, study_path, curve, key, input);
+            take_curve(&r, curve);
         else
             for (const bt_node* one = curve->first; one; one = one->next)
-                take_curve(reader, names, study_path, one, key, input);
+                take_curve(&r, one);
     }
 }
 

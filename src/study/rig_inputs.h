@@ -12,6 +12,11 @@
 void bt_rig_inputs_take(bt_reader* reader, bt_document* names, const char* study_path,
                         bt_node* root, bt_study* study);
 
+/// Reads one curve: the name of a file, or a mapping with `file`, `x`, one `y` and `offset`. The
+/// texts of *columns belong to `names`. False: neither; what is wrong with a mapping was reported.
+bool bt_curve_take(bt_reader* reader, bt_document* names, const bt_node* node, const char* key,
+                   const bt_node** file, bt_measured_columns* columns);
+
 /// Whether a tree describes rigs and no landing.
 bool bt_rig_inputs_alone(const bt_node* root);
 

@@ -5,6 +5,7 @@
 #include "base/distribution.h"
 #include "landing/landing.h"
 #include "rigs/rigs.h"
+#include "study/measured.h"
 
 #include <stdint.h>
 
@@ -81,15 +82,16 @@ typedef struct bt_condition {
     double mean; ///< SI
 } bt_condition;
 
-enum { BT_CURVES_MAX = 8, BT_FILES_READ_MAX = 8 };
+enum { BT_CURVES_MAX = 16, BT_FILES_READ_MAX = 8 };
 
 /// What a study says of one rig beside its parameters.
 typedef struct bt_rig_input {
     bool given; ///< the study describes this rig
     int curve_count;
     struct {
-        const char* path; ///< CSV file of a measured curve
-        bt_where where;   ///< where it is named
+        const char* path;            ///< CSV file of a measured curve
+        bt_where where;              ///< where it is named
+        bt_measured_columns columns; ///< which of its columns are meant
     } curves[BT_CURVES_MAX];
 } bt_rig_input;
 

@@ -207,23 +207,19 @@ static void measured_curve_with_wrong_columns_or_units_is_refused(void** state) 
     assert_int_equal(check_data(f, "time [s], strok [mm]\n0, 0\n1, 1\n"), 3);
     assert_has(f->err, "data.csv:1:11: error: strok: no such column");
     assert_int_equal(check_data(f, "time [s], stroke [kN]\n0, 0\n1, 1\n"), 3);
-    assert_has(f->err, "data.csv:1:11: error: stroke: the unit in brackets is wrong");
+    assert_has(f->err, "data.csv:1:11: error: stroke: the unit of its heading is wrong");
     assert_int_equal(check_data(f, "time [s], stroke\n0, 0\n1, 1\n"), 3);
     assert_has(f->err, "data.csv:1:11: error: stroke: its unit is missing; write it in brackets");
-    assert_int_equal(check_data(f, "time [s]; stroke [mm]\n0; 0\n1; 1\n"), 3);
-    assert_has(f->err, "data.csv:1:9: error: a comma and a second column are wanted here");
-    assert_has(f->err, "semicolons and decimal commas are not read");
-    assert_int_equal(check_data(f, "time (s), stroke (mm)\n0, 0\n1, 1\n"), 3);
-    assert_has(f->err, "data.csv:1:1: error: time (s): no such column");
-    assert_has(f->err, "units stand in brackets");
+    assert_int_equal(check_data(f, "time [s]\n0\n1\n"), 3);
+    assert_has(f->err, "data.csv:1:9: error: a second column is wanted here");
     assert_int_equal(check_data(f, "time [s], stroke [mm]\n0,0, 0\n0,1, 1\n"), 3);
-    assert_has(f->err, "data.csv:2:4: error: a row has two numbers, not more");
+    assert_has(f->err, "data.csv:2:6: error: a row has 2 numbers, not more");
     assert_int_equal(check_data(f, "0, 0\n1, 1\n"), 3);
-    assert_has(f->err, "data.csv:1:1: error: the first line must name two columns");
+    assert_has(f->err, "data.csv:1:1: error: the first line must name the columns");
     assert_int_equal(check_data(f, "time [s], stroke [mm]\n0, 0\n1, one\n"), 3);
     assert_has(f->err, "data.csv:3:4: error: stroke: \"one\" is not a number");
     assert_int_equal(check_data(f, "time [s], stroke [mm]\n1, 0\n0, 1\n"), 3);
-    assert_has(f->err, "data.csv:3:1: error: time does not increase");
+    assert_has(f->err, "data.csv:3:1: error: time goes back");
 }
 
 static void measured_curve_that_is_not_there_is_exit_code_5(void** state) {

@@ -341,20 +341,32 @@ static void wrong_curves_are_refused_with_the_place(void** state) {
     assert_curve_refused("", "curve.csv:1:1: error: the file is empty");
     assert_curve_refused("0, 1\n1, 2\n", "curve.csv:1:1: error: the first line must name");
     assert_curve_refused("time [s], stroke [mm], force [N]\n0, 1, 2\n",
-                         "curve.csv:1:22: error: two columns are wanted, not more");
+                         "curve.csv:1:24: error: 3 columns (time, stroke, force): say which");
     assert_curve_refused("time [s], strok [mm]\n0, 1\n1, 2\n",
                          "curve.csv:1:11: error: strok: no such column");
     assert_curve_refused("time [s], stroke [kN]\n0, 1\n1, 2\n",
-                         "curve.csv:1:11: error: stroke: the unit in brackets is wrong");
+                         "curve.csv:1:11: error: stroke: the unit of its heading is wrong");
     assert_curve_refused(
         "time [s], stroke\n0, 1\n1, 2\n",
         "curve.csv:1:11: error: stroke: its unit is missing; write it in brackets: stroke [m]");
-    assert_curve_refused("time [s], stroke [mm]\n0, 1\n0, 2\n",
-                         "curve.csv:3:1: error: time does not increase");
+    assert_curve_refused("time [s], stroke [mm]\n1, 1\n0, 2\n",
+                         "curve.csv:3:1: error: time goes back");
     assert_curve_refused("time [s], stroke [mm]\n0, 1\n1, x\n",
                          "curve.csv:3:4: error: stroke: \"x\" is not a number");
-    assert_curve_refused("time [s], stroke [mm]\n0; 1\n", "curve.csv:2:2: error: a comma");
+    assert_curve_refused("time [s], stroke [mm]\n0; 1\n",
+                         "curve.csv:2:1: error: time: \"0; 1\" is not a number");
     assert_curve_refused("time [s], stroke [mm]\n0, 1\n", "two rows at least");
+    assert_curve_refused("stroke [mm], strut_force [N]\n1, 1\n0, 2\n",
+                         "curve.csv:3:1: error: stroke goes back");
+    assert_refused(ONE_PARAMETER
+                   "targets:\n  - {curve: {file: curve.csv, y: {stroke: A, strut_force: "
+                   "B}}, of: main_drop, tolerance: 5 mm}\n",
+                   "curve.y: one column is wanted here");
+    write_file("curve.csv", "T (s);A (mm);B (kN)\n0;1;2\n1;2;3\n");
+    assert_refused(ONE_PARAMETER
+                   "targets:\n  - {curve: {file: curve.csv, x: T, y: {stroke: C}}, of: "
+                   "main_drop, tolerance: 5 mm}\n",
+                   "has no column \"C\"; it has T, A, B");
 }
 
 /// Measured longer than the rig runs.
