@@ -17,7 +17,9 @@ typedef struct recorder {
 
 static bt_status start(const bt_command* command, recorder* r, bt_diag* diag) {
     if (!command->output)
-        return BT_OK;
+        return command->option[0]
+                   ? bt_playback_create(BT_PLAYBACK_ROWS_ALONE, BT_PLAYBACK_NODES, &r->playback)
+                   : BT_OK;
     switch (bt_output_kind(command->output)) {
     case BT_OUTPUT_PAGE:
         return bt_page_available(diag)
@@ -26,7 +28,10 @@ static bt_status start(const bt_command* command, recorder* r, bt_diag* diag) {
     case BT_OUTPUT_PARAVIEW:
         return bt_playback_create(BT_PARAVIEW_ROWS, BT_LANDING_SEGMENTS_MAX, &r->playback);
     default:
-        return bt_history_create(&r->history);
+        BT_TRY(bt_history_create(&r->history));
+        return command->option[0]
+                   ? bt_playback_create(BT_PLAYBACK_ROWS_ALONE, BT_PLAYBACK_NODES, &r->playback)
+                   : BT_OK;
     }
 }
 
@@ -60,8 +65,7 @@ static bt_status land(const bt_command* command, const bt_study* study, recorder
     BT_TRY(start(command, r, &diag));
     BT_TRY(bt_lander_create(&lander));
     bt_lander_obey(lander, &bt_interrupted);
-    bt_status status =
-        bt_lander_run(lander, &study->model, &result, command->output ? observe : NULL, r, &diag);
+    bt_status status = bt_lander_run(lander, &study->model, &result, observe, r, &diag);
     bt_lander_destroy(lander);
     if (status == BT_OK)
         status = write(command, study, r, &result, &diag);
@@ -72,6 +76,8 @@ static bt_status land(const bt_command* command, const bt_study* study, recorder
         bt_landing_write_json(&json, &result);
     } else
         bt_landing_print(stdout, &result);
+    if (command->option[0] && r->playback && !command->json)
+        bt_playback_print(r->playback, study->title, stdout);
     if (result.outcome != BT_FAILED)
         return BT_OK;
     bt_say_error(command, "the landing failed: %s, %s at %.4g s", result.failed_element,
@@ -90,6 +96,11 @@ static bt_status run(const bt_command* command) {
     return status;
 }
 
+static const struct argp_option options[] = {
+    {"plot", BT_OPTION, 0, 0, "draw the heights of hook and cable in the terminal", 1},
+    {0},
+};
+
 const bt_verb bt_verb_land = {
     .name = "land",
     .summary = "simulate one landing: outcome, bounces, peak loads",
@@ -103,6 +114,7 @@ const bt_verb bt_verb_land = {
             "  bolter land study.yaml -o landing.html   a page that plays it in three dimensions\n"
             "  bolter land study.yaml -o landing.pvd    for ParaView\n\n"
             "The exit code is 4 when the computation diverged.",
+    .options = options,
     .least_words = 1,
     .most_words = 1,
     .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_TABLE | BT_OUTPUT_PAGE | BT_OUTPUT_PARAVIEW |

@@ -1,6 +1,7 @@
 #include "cli/chain.h"
 #include "cli/output.h"
 #include "cluster/cluster.h"
+#include "report/reliability_figure.h"
 #include "report/reliability_report.h"
 
 #include <stdio.h>
@@ -105,17 +106,18 @@ static bt_status run_indices(bt_chain* chain, const bt_surrogate* surrogate) {
 
 // --- verb -------------------------------------------------------------------------------------
 
-enum { OPTION_AGAIN, OPTION_INDICES };
+enum { OPTION_AGAIN, OPTION_INDICES, OPTION_PLOT };
 
 static bt_status run_with(bt_chain* chain) {
     const char* const* option = chain->command->option;
     bt_surrogate surrogate;
     BT_TRY(bt_stage_fit(&chain->directory, false, &surrogate, NULL));
-    const bt_status status =
-        option[OPTION_INDICES]
-            ? run_indices(chain, &surrogate)
-            : bt_chain_reliability(chain, option[OPTION_AGAIN] != NULL, &surrogate);
+    bt_status status = option[OPTION_INDICES]
+                           ? run_indices(chain, &surrogate)
+                           : bt_chain_reliability(chain, option[OPTION_AGAIN] != NULL, &surrogate);
     bt_surrogate_destroy(&surrogate);
+    if (status == BT_OK && option[OPTION_PLOT] && !option[OPTION_INDICES] && !chain->command->json)
+        status = bt_reliability_print(&chain->study, stdout, &chain->diag);
     return status;
 }
 
@@ -132,6 +134,7 @@ static const struct argp_option options[] = {
     {"again", BT_OPTION + OPTION_AGAIN, 0, 0, "compute the table even if it is up to date", 1},
     {"indices", BT_OPTION + OPTION_INDICES, 0, 0,
      "instead of the table: which input drives the scatter of outcomes (Sobol' indices)", 1},
+    {"plot", BT_OPTION + OPTION_PLOT, 0, 0, "draw the curves in the terminal too", 1},
     {0},
 };
 

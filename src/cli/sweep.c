@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "pipeline/sweep.h"
 #include "report/figure.h"
+#include "report/figure_text.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -160,7 +161,7 @@ static double figure_end_m(const bt_sweep* sweep) {
 }
 
 static bt_status write_figure(const bt_study* study, const plan* p, bt_sweep* sweep,
-                              const char* folder, bt_diag* diag) {
+                              const char* folder, bool plot, bt_diag* diag) {
     char title[400];
     const bool reference = bt_study_is_reference(study);
     snprintf(title, sizeof title, "%s%s%s%s", study->title, p->title ? ": " : "",
@@ -194,6 +195,8 @@ static bt_status write_figure(const bt_study* study, const plan* p, bt_sweep* sw
                               .x_max = figure_end_m(sweep),
                               .series_count = count,
                               .series = series};
+    if (plot)
+        bt_figure_print(&figure, stdout);
     return bt_figure_write(&figure, folder, diag);
 }
 
@@ -229,7 +232,8 @@ static bt_status show(sweeping* s, const plan* p, bt_sweep* sweep) {
         BT_TRY(print_table(s->study, p, sweep));
     if (bt_output_kind(s->command->output) == BT_OUTPUT_TABLE)
         return BT_OK; // only the table was asked for
-    return write_figure(s->study, p, sweep, s->folder, &s->diag);
+    return write_figure(s->study, p, sweep, s->folder, s->command->option[2] && !s->command->json,
+                        &s->diag);
 }
 
 static bt_status compute(const bt_study* study, const plan* p, bt_sweep* sweep, bt_diag* diag) {
@@ -257,7 +261,7 @@ bt_status bt_sweep_figures(const bt_study* study, const char* folder, bt_diag* d
     for (int i = 0; i < PAPER_COUNT && status == BT_OK; ++i) {
         bt_sweep sweep;
         BT_TRY(compute(study, &paper[i], &sweep, diag));
-        status = write_figure(study, &paper[i], &sweep, folder, diag);
+        status = write_figure(study, &paper[i], &sweep, folder, false, diag);
         bt_sweep_destroy(&sweep);
     }
     return status;
@@ -333,6 +337,7 @@ static const struct argp_option options[] = {
      "its values: '3.6, 4, 5 m/s', or a range: '0..8 deg' (nine values), '0..8 deg in 5', "
      "'0..8 deg by 2'",
      1},
+    {"plot", BT_OPTION + 2, 0, 0, "draw the ways of the hook in the terminal too", 1},
     {0},
 };
 

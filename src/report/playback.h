@@ -33,4 +33,7 @@ BT_CHECKED bt_status bt_playback_write(bt_json* json, const bt_playback* playbac
                                        const char* name, const bt_model_params* model,
                                        const bt_landing_result* result, bt_diag* diag);
 
+/// Heights of hook, lip and cable over time as text, until a little after they have met.
+void bt_playback_print(const bt_playback* playback, const char* title, FILE* out);
+
 #endif

@@ -2,6 +2,7 @@
 
 #include "report/display.h"
 #include "report/figure.h"
+#include "report/figure_text.h"
 #include "report/reliability_csv.h"
 
 #include <ctype.h>
@@ -36,8 +37,15 @@ static void name_figure(const bt_study* study, const bt_input* input, char name[
             *c = '_';
 }
 
+/// Where figures go: into a folder, or onto `out`.
+typedef struct target {
+    const char* folder;
+    FILE* out;
+    bt_diag* diag;
+} target;
+
 static bt_status draw(const bt_study* study, const bt_input* input, const bt_reliability_curve* c,
-                      const char* folder, bt_diag* diag) {
+                      const target* to) {
     char name[160], title[512], label[BT_PATH_MAX], x_label[BT_PATH_MAX + 64];
     double factor;
     const char* unit = bt_display_unit(input->field, &factor);
@@ -68,7 +76,10 @@ static bt_status draw(const bt_study* study, const bt_input* input, const bt_rel
                               .x_free = true,
                               .series_count = 2,
                               .series = series};
-    return bt_figure_write(&figure, folder, diag);
+    if (!to->out)
+        return bt_figure_write(&figure, to->folder, to->diag);
+    bt_figure_print(&figure, to->out);
+    return BT_OK;
 }
 
 /// Into the unit that people use, and percent.
@@ -78,9 +89,9 @@ static void to_display(bt_reliability_curve* c, double factor) {
             c->at[k][i] *= k == BT_CURVE_VALUE ? factor : 100;
 }
 
-bt_status bt_reliability_draw(const bt_study* study, const char* folder, bt_diag* diag) {
+static bt_status draw_all(const bt_study* study, const target* to) {
     bt_reliability_csv* csv = NULL;
-    bt_status status = bt_reliability_csv_read(study, &csv, diag);
+    bt_status status = bt_reliability_csv_read(study, &csv, to->diag);
     for (int i = 0; csv && i < study->input_count && status == BT_OK; ++i) {
         bt_reliability_curve c;
         double factor;
@@ -88,8 +99,16 @@ bt_status bt_reliability_draw(const bt_study* study, const char* folder, bt_diag
         bt_reliability_csv_curve(csv, study->inputs[i].path, &c);
         to_display(&c, factor);
         if (c.count > 1)
-            status = draw(study, &study->inputs[i], &c, folder, diag);
+            status = draw(study, &study->inputs[i], &c, to);
     }
     bt_reliability_csv_destroy(csv);
     return status;
+}
+
+bt_status bt_reliability_draw(const bt_study* study, const char* folder, bt_diag* diag) {
+    return draw_all(study, &(target){.folder = folder, .diag = diag});
+}
+
+bt_status bt_reliability_print(const bt_study* study, FILE* out, bt_diag* diag) {
+    return draw_all(study, &(target){.out = out, .diag = diag});
 }
