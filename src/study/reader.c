@@ -230,7 +230,7 @@ static bool read_whole(bt_reader* reader, const bt_node* node, const char* path,
 /// The unit token of a field's values. Of a pressure, the field's text says whether it is absolute
 /// or gauge; a difference of two (a standard deviation) is neither.
 static const char* level_token(const bt_field* field) {
-    if (strcmp(field->unit, "Pa") != 0 || !field->text)
+    if (field->kind == BT_FIELD_COUNT || !field->text || strcmp(field->unit, "Pa") != 0)
         return field->unit;
     return strstr(field->text, "absolute") ? "Pa_absolute"
            : strstr(field->text, "gauge")  ? "Pa_gauge"
