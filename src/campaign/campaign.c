@@ -174,13 +174,14 @@ static bt_status run(campaign* c, const bt_study* study) {
     c->progress->before = c->progress->done;
     if (c->progress->done >= c->progress->total)
         return commit(c);
-    if (c->options->rounds && c->options->shards > 1) {
+    const bt_campaign_rounds* rounds = c->options->rounds;
+    if (rounds && c->options->shards > 1 && rounds->end(rounds->user, 0) < c->count) {
         bt_diag_add(c->diag, BT_ERROR, BT_NOWHERE,
                     "campaign: rounds need the landings of all shards; set campaign.unsure to 0 "
                     "to run the design conditions in shards");
         return BT_ERR_INPUT;
     }
-    if (c->options->rounds)
+    if (rounds)
         return run_rounds(c, study);
     c->end = c->count;
     return run_round(c, study);

@@ -1,6 +1,7 @@
 #include "pipeline/pipeline.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -132,6 +133,25 @@ bt_status bt_stage_reliability(bt_study_directory* directory, const bt_surrogate
     return status;
 }
 
+/// Indices share out the variance of the outcomes: where the rarer outcome is rarer than the
+/// surrogate's errors, they share out those.
+static void warn_of_few(const bt_surrogate* surrogate, const bt_sobol_result* result, int samples,
+                        bt_diag* diag) {
+    enum { FEW = 100 };
+    const bt_surrogate_scores* s = &surrogate->scores;
+    const double rare = fmin(result->mean, 1 - result->mean);
+    const double error = s->holdout_count > 0
+                             ? (double)(s->holdout_count - s->holdout_correct) / s->holdout_count
+                             : 1;
+    if (rare * samples >= FEW && rare >= error)
+        return;
+    bt_diag_add(diag, BT_WARNING, BT_NOWHERE,
+                "reliability: too few %s to rank the inputs: %.3g %% of the samples, and the "
+                "surrogate errs on %.3g %% of held-out landings; the indices say what its errors "
+                "depend on, not what the outcomes do",
+                result->mean > 0.5 ? "misses" : "catches", 100 * rare, 100 * error);
+}
+
 bt_status bt_stage_indices(bt_study_directory* directory, const bt_surrogate* surrogate,
                            bt_sobol_result* result) {
     enum { SAMPLES_MAX = 200000, BOOTSTRAP = 200 };
@@ -141,10 +161,12 @@ bt_status bt_stage_indices(bt_study_directory* directory, const bt_surrogate* su
     bt_surrogate_classifier* made = NULL;
     BT_TRY(bt_surrogate_classifier_create(study, surrogate, &made, directory->diag));
     bt_classifier classifier = *bt_surrogate_classifier_get(made);
-    const bt_status status = bt_sobol_indices(&sampler, bt_engaged, &classifier,
-                                              (int)(wanted < SAMPLES_MAX ? wanted : SAMPLES_MAX),
-                                              BOOTSTRAP, (int)study->campaign.threads, result);
+    const int samples = (int)(wanted < SAMPLES_MAX ? wanted : SAMPLES_MAX);
+    const bt_status status = bt_sobol_indices(&sampler, bt_engaged, &classifier, samples, BOOTSTRAP,
+                                              (int)study->campaign.threads, result);
     bt_surrogate_classifier_destroy(made);
+    if (status == BT_OK)
+        warn_of_few(surrogate, result, samples, directory->diag);
     if (status != BT_ERR_NUMERIC)
         return status;
     bt_diag_add(directory->diag, BT_ERROR, BT_NOWHERE,

@@ -45,11 +45,19 @@ static bt_study read_reference(const char* const* sets, int count) {
 }
 
 /// Reads the reference with one --set; gives the hash.
-static uint64_t hash_with(const char* set) {
-    bt_study study = read_reference(&set, set ? 1 : 0);
+/// Of the reference study with a design, and one key set when it is not NULL.
+static uint64_t hash_of(const char* design, const char* set) {
+    const char* const sets[] = {design, set};
+    bt_study study = read_reference(sets, set ? 2 : 1);
     const uint64_t hash = study.hash;
     bt_study_destroy(&study);
     return hash;
+}
+
+/// In the box of a design.
+static uint64_t hash_with(const char* set) {
+    const bool design = set && strncmp(set, "campaign.design", 15) == 0;
+    return hash_of(design ? set : "campaign.design=sobol", design ? NULL : set);
 }
 
 static void assert_set_says(const char* set, const char* want) {
@@ -317,6 +325,18 @@ static void the_study_directory_is_named_after_the_file(void** state) {
     bt_study_destroy(&reference_study);
 }
 
+/// The design conditions draws from the distributions and conditions, and fills no box.
+static void the_hash_of_conditions_follows_what_is_asked(void** state) {
+    (void)state;
+    static const char design[] = "campaign.design=conditions";
+    const uint64_t hash = hash_of(design, NULL);
+    assert_true(hash_of(design, "uncertainty.landing.pitch.sd=1 deg") != hash);
+    assert_true(hash_of(design, "reliability.conditions.landing.pitch=[1 deg]") != hash);
+    assert_true(hash_of(design, "campaign.unsure=0.2") != hash);
+    assert_true(hash_of(design, "campaign.samples=99") == hash);
+    assert_true(hash_of(design, "campaign.bounds.landing.pitch=[-1.1 deg, 8 deg]") == hash);
+}
+
 static void the_hash_follows_what_runs_depend_on(void** state) {
     (void)state;
     const uint64_t hash = hash_with(NULL);
@@ -375,6 +395,7 @@ int main(void) {
         cmocka_unit_test(titles),
         cmocka_unit_test(the_study_directory_is_named_after_the_file),
         cmocka_unit_test(the_hash_follows_what_runs_depend_on),
+        cmocka_unit_test(the_hash_of_conditions_follows_what_is_asked),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
