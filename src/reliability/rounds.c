@@ -63,6 +63,22 @@ static bt_status gather(const bt_rounds* r, const bt_evidence* e, int begin, bt_
     return BT_OK;
 }
 
+/// What is taken when no landing has an outcome to select on.
+static bt_hyperparameters unselected(int dims) {
+    bt_hyperparameters chosen = {.C = 1, .gamma = 0.1};
+    for (int k = 0; k < dims; ++k)
+        chosen.weight[k] = 1;
+    return chosen;
+}
+
+/// A classifier that calls everything engaged.
+static bt_surrogate constant_of(int dims) {
+    bt_surrogate s = {.dims = dims, .constant = true, .C = 1, .gamma = 0.1, .rho = -1};
+    for (int k = 0; k < dims; ++k)
+        s.scale[k] = s.weight[k] = 1;
+    return s;
+}
+
 static bt_status select_before(bt_rounds* r, const bt_evidence* e, int begin, bt_diag* diag) {
     int power = FIRST;
     while (4 * power <= begin)
@@ -73,7 +89,9 @@ static bt_status select_before(bt_rounds* r, const bt_evidence* e, int begin, bt
     double* x = NULL;
     int* label = NULL;
     bt_status status = gather(r, e, power, &set, &x, &label);
-    if (status == BT_OK)
+    if (status == BT_OK && set.count == 0)
+        r->chosen = unselected(set.dims);
+    else if (status == BT_OK)
         status =
             bt_surrogate_select(&set, r->params, 0, r->seed, r->threads, &r->chosen, NULL, diag);
     r->selected_at = status == BT_OK ? power : 0;
@@ -90,7 +108,9 @@ bt_status bt_rounds_classifier(bt_rounds* r, const bt_evidence* e, int begin, bt
     double* x = NULL;
     int* label = NULL;
     bt_status status = gather(r, e, begin, &set, &x, &label);
-    if (status == BT_OK)
+    if (status == BT_OK && set.count == 0)
+        *out = constant_of(set.dims);
+    else if (status == BT_OK)
         status = bt_surrogate_fit(&set, &r->chosen, 0, r->seed, out, NULL);
     free(x);
     free(label);

@@ -33,7 +33,7 @@ typedef struct bt_rounds {
 /// The classifier of the round that begins at `begin`: it learns from the landings before, failed
 /// ones left out. Hyperparameters are selected on the first 128, 512, 2,048, ... landings and kept
 /// in between: a function of the rows before `begin` and of the seed. The caller owns *out.
-/// Returns what bt_surrogate_fit does; BT_ERR_ARG also when every landing before failed.
+/// When every landing before failed it is constant: engaged. Returns what bt_surrogate_fit does.
 BT_CHECKED bt_status bt_rounds_classifier(bt_rounds* rounds, const bt_evidence* evidence, int begin,
                                           bt_surrogate* out, bt_diag* diag);
 
