@@ -3,6 +3,7 @@
 
 #include "landing/ship.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -98,6 +99,37 @@ void bt_landing_model_use_kernel(bt_landing_model* model, bt_kernel_level level)
     model->has_cable = false;
 }
 
+/// All wheels must be before the wires when a rolling aircraft begins.
+static bt_status check_clear(const bt_landing_model* m, bt_diag* diag) {
+    static const double margin_m = 0.1;
+    const bt_landing_params* p = &m->params.landing;
+    const bt_glide* at = &m->stance.at;
+    const double from_m =
+        p->distance_from == BT_DISTANCE_FROM_HOOK ? at->hook_m[0] : at->tyre_m[BT_LEG_LEFT][0];
+    const double least_m =
+        at->tyre_m[BT_LEG_NOSE][0] + m->airframe.tyre[BT_LEG_NOSE].radius + margin_m - from_m;
+    if (p->distance_m >= least_m)
+        return BT_OK;
+    bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                "landing.distance: %g m: an aircraft that rolls in begins with all its wheels "
+                "before the wire; at least %.4g m would do",
+                p->distance_m, ceil(100 * least_m) / 100);
+    return BT_ERR_INPUT;
+}
+
+/// How an aircraft that rolls in stands, and its lift there.
+static bt_status prepare_stance(bt_landing_model* m, bt_diag* diag) {
+    bt_model_params* p = &m->params;
+    bt_frame frame = m->hanging.frame;
+    if (m->moves)
+        bt_ship_frame(&p->deck.motion, p->deck.gravity_mps2, 1, 0, &frame);
+    BT_TRY(bt_stance_find(&m->airframe, p, &m->hanging, &frame, &m->stance, diag));
+    p->landing.pitch_rad = m->stance.pitch_rad;
+    BT_TRY(bt_lift_check(&p->landing, "", diag) ? BT_OK : BT_ERR_INPUT);
+    bt_lift_prepare(&m->airframe.lift, p, m->stance.pitch_rad);
+    return check_clear(m, diag);
+}
+
 bt_status bt_landing_model_prepare(bt_landing_model* model, const bt_model_params* params,
                                    bt_diag* diag) {
     BT_TRY(prepare_airframe(model, params, diag));
@@ -107,6 +139,9 @@ bt_status bt_landing_model_prepare(bt_landing_model* model, const bt_model_param
     model->params = *params; // also when the wires are refused: the airframe may be a new one
     model->moves = bt_ship_accelerates(&params->deck.motion);
     bt_lift_prepare(&model->airframe.lift, params, params->landing.pitch_rad);
-    bt_ship_relative(&params->deck.motion, &model->params.landing);
+    if (params->landing.start == BT_START_GLIDE)
+        bt_ship_relative(&params->deck.motion, &model->params.landing);
+    else if (status == BT_OK)
+        return prepare_stance(model, diag);
     return status;
 }

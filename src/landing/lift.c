@@ -19,19 +19,34 @@ double bt_lift_touchdown_angle(const bt_landing_params* landing, double pitch_ra
 void bt_lift_prepare(bt_lift* lift, const bt_model_params* params, double pitch_rad) {
     const bt_landing_params* p = &params->landing;
     const double along_mps = p->horizontal_speed_mps + p->lift.wind_mps;
-    const double sink_mps = p->sink_speed_mps;
+    const double sink_mps = p->start == BT_START_GLIDE ? p->sink_speed_mps : 0;
     lift->law = p->lift;
     lift->motion = params->deck.motion;
     lift->moves = bt_ship_accelerates(&lift->motion) || lift->motion.heave.velocity_mps != 0;
+    lift->rolling = p->start == BT_START_ROLLING;
     lift->speed2_m2ps2 = along_mps * along_mps + sink_mps * sink_mps;
     lift->angle_rad = bt_lift_touchdown_angle(p, pitch_rad) - p->lift.zero_lift_angle_rad;
+}
+
+bool bt_lift_check(const bt_landing_params* landing, const char* path, bt_diag* diag) {
+    static const double least_rad = 0.02;
+    const double angle_rad = bt_lift_touchdown_angle(landing, landing->pitch_rad);
+    if (landing->lift.law != BT_LIFT_AERODYNAMIC ||
+        angle_rad - landing->lift.zero_lift_angle_rad >= least_rad)
+        return true;
+    bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                "%s%slanding.lift.zero_lift_angle: %.4g rad, the angle of attack at touchdown is "
+                "%.4g rad and carries nothing; at most %.4g rad would do",
+                path, *path ? "." : "", landing->lift.zero_lift_angle_rad, angle_rad,
+                angle_rad - least_rad);
+    return false;
 }
 
 /// The fuselage's way through the air, in deck axes.
 static void way_through_air(const bt_lift* lift, const bt_motion* motion, int body, double way[3]) {
     memcpy(way, motion->v + 6 * body, 3 * sizeof *way);
     way[0] += lift->law.wind_mps;
-    if (!lift->moves)
+    if (!lift->moves || lift->rolling)
         return;
     bt_ship ship;
     double carried[3];

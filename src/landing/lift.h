@@ -21,7 +21,7 @@ typedef struct bt_lift {
     double touchdown_N; ///< lift_ratio m g
     bt_lift_params law;
     bt_motion_params motion;        ///< of the deck: its vertical, and its part of the way
-    bool moves;                     ///< the deck does
+    bool moves, rolling;            ///< the deck does; the aircraft rolls in, with the deck
     double speed2_m2ps2, angle_rad; ///< V_T^2, alpha_T - alpha_0
 } bt_lift;
 
@@ -34,6 +34,9 @@ void bt_lift_prepare(bt_lift* lift, const bt_model_params* params, double pitch_
 
 /// Angle of attack at touchdown: pitch and the slope of the approach.
 double bt_lift_touchdown_angle(const bt_landing_params* landing, double pitch_rad);
+
+/// Whether lift can be scaled by the angle of attack it has at touchdown; else an error in diag.
+bool bt_lift_check(const bt_landing_params* landing, const char* path, bt_diag* diag);
 
 /// f at a time, of the motion of the fuselage (`body`).
 double bt_lift_factor(const bt_lift* lift, const bt_motion* motion, int body);

@@ -10,6 +10,7 @@
 #include <stdio.h>
 
 const char* const bt_distance_from_names[] = {"hook", "main_wheels", NULL};
+const char* const bt_start_names[] = {"glide", "rolling", NULL};
 const char* const bt_lift_law_names[] = {"constant", "aerodynamic", NULL};
 
 #define ROW(kind, name, ...) BT_ROW_##kind(bt_gear_params, name, __VA_ARGS__)
@@ -116,18 +117,14 @@ static void check_mesh_size(const bt_cable_params* cable, const char* path, bt_d
                     0.05 + (double)def.count / BT_LANDING_SEGMENTS_MAX);
 }
 
-/// Lift is scaled by the angle of attack it had at touchdown: there must be one.
-static void check_lift(const bt_landing_params* landing, const char* path, bt_diag* diag) {
-    static const double least_rad = 0.02;
-    const double angle_rad = bt_lift_touchdown_angle(landing, landing->pitch_rad);
-    if (landing->lift.law != BT_LIFT_AERODYNAMIC ||
-        angle_rad - landing->lift.zero_lift_angle_rad >= least_rad)
-        return;
-    bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
-                "%s%slanding.lift.zero_lift_angle: %.4g rad, the angle of attack at touchdown is "
-                "%.4g rad and carries nothing; at most %.4g rad would do",
-                path, *path ? "." : "", landing->lift.zero_lift_angle_rad, angle_rad,
-                angle_rad - least_rad);
+/// An aircraft that rolls in goes straight along the deck.
+static void check_rolling(const bt_landing_params* landing, const char* path, bt_diag* diag) {
+    const char* askew = landing->yaw_rad != 0 ? "yaw" : landing->drift_mps != 0 ? "drift" : NULL;
+    if (landing->start == BT_START_ROLLING && askew)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s%slanding.%s: an aircraft that stands and rolls in does not slide; 0 would "
+                    "do, or landing.start: glide",
+                    path, *path ? "." : "", askew);
 }
 
 /// What only the parts together can say: the cable must fit the hook, the steps the parts.
@@ -145,7 +142,9 @@ static void check_model(const void* params, const char* path, bt_diag* diag) {
 
     check_steps(model, path, diag);
     check_mesh_size(&model->deck.cable, path, diag);
-    check_lift(&model->landing, path, diag);
+    if (model->landing.start == BT_START_GLIDE)
+        bt_lift_check(&model->landing, path, diag);
+    check_rolling(&model->landing, path, diag);
     bt_ship_check(model, path, diag);
 
     const bt_gear_params* gear = &model->aircraft.main_gear;

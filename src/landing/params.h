@@ -173,6 +173,9 @@ BT_DECLARE_GROUP(solver, BT_SOLVER_FIELDS)
 enum { BT_DISTANCE_FROM_HOOK, BT_DISTANCE_FROM_MAIN_WHEELS };
 extern const char* const bt_distance_from_names[];
 
+enum { BT_START_GLIDE, BT_START_ROLLING };
+extern const char* const bt_start_names[];
+
 enum { BT_LIFT_CONSTANT, BT_LIFT_AERODYNAMIC };
 extern const char* const bt_lift_law_names[];
 
@@ -190,6 +193,10 @@ extern const char* const bt_lift_law_names[];
 BT_DECLARE_GROUP(lift, BT_LIFT_FIELDS)
 
 #define BT_LANDING_FIELDS(F)                                                                       \
+    F(CHOICE, start, bt_start_names, OPTIONAL, 0, 0, 0, "",                                        \
+      "glide: comes down on the deck; rolling: stands on its struts in equilibrium, hook on "      \
+      "deck, "                                                                                     \
+      "and rolls in; pitch, roll and sink_speed then play no part")                                \
     F(REAL, sink_speed, mps, REQUIRED, 3.6, 0.01, 15, "Sec. 4.1", "V_V: sinking velocity")         \
     F(REAL, horizontal_speed, mps, REQUIRED, 47.5, 5, 120, "Sec. 4.3",                             \
       "V_E: horizontal velocity relative to the deck")                                             \

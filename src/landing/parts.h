@@ -4,6 +4,7 @@
 
 #include "landing/airframe.h"
 #include "landing/model.h"
+#include "landing/stance.h"
 #include "landing/wire.h"
 
 enum { BT_WIRE_MAX = 1 };
@@ -23,6 +24,7 @@ struct bt_landing_model {
     int wire_count;
     bt_wire wire[BT_WIRE_MAX];
     double segment_m[BT_CABLE_SEGMENTS_MAX];
+    bt_stance stance;     ///< of an aircraft that rolls in
     double pressing_mps2; ///< normal to the deck, in which the wires rest
     bool moves;           ///< the deck's frame is not that of a deck at rest
 };

@@ -189,10 +189,22 @@ static double most_acceleration(const bt_motion_params* motion) {
     return most;
 }
 
+static void check_rolling(const bt_model_params* model, const char* path, bt_diag* diag) {
+    const bt_motion_params* motion = &model->deck.motion;
+    const char* turning = turns(&motion->pitch) ? "pitch" : turns(&motion->roll) ? "roll" : NULL;
+    if (turning)
+        bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
+                    "%s%sdeck.motion.%s: an aircraft that rolls in stands at rest on a level deck; "
+                    "0 would do, or landing.start: glide",
+                    path, *path ? "." : "", turning);
+}
+
 void bt_ship_check(const bt_model_params* model, const char* path, bt_diag* diag) {
     static const double least_mps = 0.01, least_forward_mps = 1, gravity_share = 0.5;
     const bt_motion_params* motion = &model->deck.motion;
     const char* dot = *path ? "." : "";
+    if (model->landing.start == BT_START_ROLLING)
+        check_rolling(model, path, diag);
     check_angle(&motion->pitch, path, "pitch", diag);
     check_angle(&motion->roll, path, "roll", diag);
     const double most = most_acceleration(motion), g = model->deck.gravity_mps2;
@@ -204,7 +216,7 @@ void bt_ship_check(const bt_model_params* model, const char* path, bt_diag* diag
                     floor(100 * gravity_share * g / most + 1e-9) / 100);
     bt_landing_params relative = model->landing;
     bt_ship_relative(motion, &relative);
-    if (relative.sink_speed_mps < least_mps)
+    if (model->landing.start == BT_START_GLIDE && relative.sink_speed_mps < least_mps)
         bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
                     "%s%sdeck.motion.heave.velocity: the deck falls as fast as the aircraft sinks, "
                     "%.3g m/s towards it; landing.sink_speed above %.4g m/s would do",

@@ -94,12 +94,11 @@ static bool sleeps(const bt_landing_model* m, double begins_s) {
                                                begins_s, lasts_s) <= tolerance_m;
 }
 
-/// The wire rests at x = 0, the named part of the gliding aircraft is `distance` before it when the
-/// first part touches the deck at time 0. Going back along the glide is exact, since nothing
-/// touches anything there and gravity is what lift carries
-/// (bt_landing_step), so that distance and sinking speed are those asked for at that touch.
-bool bt_landing_start(const bt_landing_model* m, bt_landing_state* s) {
-    static const double time_allowed = 4; // of what the way past the wire takes at full speed
+/// The aircraft on its glide, the named part `distance` before the wire when the first part touches
+/// the deck at time 0. Going back along the glide is exact, since nothing touches anything there
+/// and gravity is what lift carries (bt_landing_step), so that distance and sinking speed are those
+/// asked for at that touch. Returns the time at which the run begins.
+static double glide_in(const bt_landing_model* m, bt_landing_state* s) {
     const bt_landing_params* p = &m->params.landing;
     bt_glide glide;
     double shift[3];
@@ -113,6 +112,31 @@ bool bt_landing_start(const bt_landing_model* m, bt_landing_state* s) {
         go_back(m, shift, begin_s, &s->airframe);
     else
         bt_airframe_move(&m->airframe, back, &s->airframe);
+    return begin_s;
+}
+
+/// The aircraft standing on its struts, the named part `distance` before the wire at time 0.
+static void roll_in(const bt_landing_model* m, bt_landing_state* s) {
+    const bt_landing_params* p = &m->params.landing;
+    bt_glide glide;
+    double shift[3];
+    bt_state_copy(m->airframe.system, &s->airframe, &m->hanging);
+    bt_stance_place(&m->airframe, p, &m->hanging, &m->stance, &s->airframe, &glide);
+    touchdown_shift(p, &glide, shift);
+    shift[2] = 0;
+    bt_airframe_move(&m->airframe, shift, &s->airframe);
+}
+
+/// The wires rest, the first at x = 0; the aircraft is where it begins.
+bool bt_landing_start(const bt_landing_model* m, bt_landing_state* s) {
+    static const double time_allowed = 4; // of what the way past the wire takes at full speed
+    const bt_landing_params* p = &m->params.landing;
+    const bool glides = p->start == BT_START_GLIDE;
+    double begin_s = 0;
+    if (glides)
+        begin_s = glide_in(m, s);
+    else
+        roll_in(m, s);
     s->airframe.time_s = begin_s;
     s->airframe.steps = 0;
 
@@ -128,7 +152,8 @@ bool bt_landing_start(const bt_landing_model* m, bt_landing_state* s) {
     s->result = (bt_landing_result){.margin_m = NAN, .time_of_contact_s = NAN};
     s->result.shank_bends = m->airframe.shank.bends;
     s->phase = BT_PHASE_ROLL;
-    if (m->params.aircraft.lift_ratio != 1) { // until the first touch nothing but the glide
+    if (glides &&
+        m->params.aircraft.lift_ratio != 1) { // until the first touch nothing but the glide
         s->phase = BT_PHASE_GLIDE;
         s->airframe.frame.gravity_mps2[2] *= m->params.aircraft.lift_ratio;
     }
