@@ -91,6 +91,10 @@ typedef enum bt_kernel_level {
     BT_KERNEL_V4
 } bt_kernel_level;
 
+/// The level that BT_KERNEL_BEST means on this machine: "v1", "v3", "v4". Landings of two levels
+/// differ in the last bits.
+const char* bt_cable_best_level(void);
+
 /// A rope in general: the arresting cable is one, the verification cases are others.
 typedef struct bt_cable_def {
     int count;              ///< segments, at least 2

@@ -43,6 +43,10 @@ static bt_cable_kernel choose_kernel(bt_kernel_level level) {
     return (bt_cable_kernel){"v1", bt_cable_joints_v1, bt_cable_resultants_v1, bt_cable_advance_v1};
 }
 
+const char* bt_cable_best_level(void) {
+    return choose_kernel(BT_KERNEL_BEST).name;
+}
+
 /// Share of critical damping that gives the restitution e to a spring and damper that may not pull:
 /// e = exp(-zeta / r (pi - 2 atan(zeta / r))), r = sqrt(1 - zeta^2); by bisection.
 static double damping_ratio(double restitution) {

@@ -1,7 +1,10 @@
 #include "campaign/ledger_parts.h"
 
+#include "bolter/version.h"
+#include "cable/cable.h"
 #include "study/identity.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -9,9 +12,16 @@
 
 enum { APPLICATION_ID = 0x424f4c54 /* "BOLT" */, FORMAT_VERSION = 2, BUSY_WAIT_MS = 60000 };
 
+void bt_ledger_maker(char* text, size_t size) {
+    snprintf(text, size, "bolter %d.%d.%d, kernels %s", BT_VERSION_MAJOR, BT_VERSION_MINOR,
+             BT_VERSION_PATCH, bt_cable_best_level());
+}
+
 /// A new ledger appears complete or not at all.
 static bt_status create(bt_ledger* ledger, const char* identity, bt_diag* diag) {
     const char* study = ledger->study->text ? ledger->study->text : "";
+    char maker[BT_MAKER_SIZE];
+    bt_ledger_maker(maker, sizeof maker);
     sqlite3_str* marks = sqlite3_str_new(ledger->db);
     sqlite3_str_appendf(marks, "PRAGMA application_id = %d; PRAGMA user_version = %d;",
                         APPLICATION_ID, FORMAT_VERSION);
@@ -23,6 +33,8 @@ static bt_status create(bt_ledger* ledger, const char* identity, bt_diag* diag) 
         status = bt_ledger_set_remark(ledger, "identity", identity, diag);
     if (status == BT_OK)
         status = bt_ledger_set_remark(ledger, "study", study, diag);
+    if (status == BT_OK)
+        status = bt_ledger_set_remark(ledger, "made_by", maker, diag);
     if (status == BT_OK)
         status = bt_ledger_execute(ledger, "COMMIT", "cannot write", diag);
     if (status != BT_OK)
@@ -146,6 +158,19 @@ static bt_status check_format(bt_ledger* ledger, bt_ledger_access how, const cha
     return check_identity(ledger, identity, diag);
 }
 
+/// Landings that this program would add differ in their last bits from those that are there.
+static void warn_of_other_maker(const bt_ledger* ledger, bt_diag* diag) {
+    char here[BT_MAKER_SIZE];
+    char* maker = bt_ledger_remark(ledger, "made_by");
+    bt_ledger_maker(here, sizeof here);
+    if (maker && strcmp(maker, here) != 0)
+        bt_diag_add(diag, BT_WARNING, bt_ledger_place(ledger),
+                    "was begun by %s; this is %s: the last bits of new landings differ from those "
+                    "that it would have computed",
+                    maker, here);
+    free(maker);
+}
+
 static bt_status open_checked(bt_ledger* ledger, bt_ledger_access how, bt_diag* diag) {
     if (how != BT_LEDGER_CREATE && access(ledger->path, F_OK) != 0) {
         bt_diag_add(diag, BT_ERROR, bt_ledger_place(ledger),
@@ -170,6 +195,8 @@ static bt_status open_checked(bt_ledger* ledger, bt_ledger_access how, bt_diag* 
         status = bt_ledger_bind_columns(ledger, how != BT_LEDGER_READ, diag);
     if (status == BT_OK && how != BT_LEDGER_READ)
         status = bt_ledger_make_totals(ledger, diag);
+    if (status == BT_OK && how != BT_LEDGER_READ)
+        warn_of_other_maker(ledger, diag);
     return status;
 }
 

@@ -86,6 +86,7 @@ BT_CHECKED bt_status bt_ledger_hash(bt_ledger* ledger, uint64_t* hash, bt_diag* 
 
 /// Adds the runs of another ledger of the same study (a shard); committed as a whole or not at
 /// all. A run that both have must be the same to the bit (BT_ERR_INPUT otherwise).
+/// So is a ledger that another version or instruction set computed: it would differ there.
 BT_CHECKED bt_status bt_ledger_merge(bt_ledger* ledger, const char* path, int64_t* added,
                                      bt_diag* diag);
 

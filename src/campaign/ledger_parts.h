@@ -62,6 +62,11 @@ BT_CHECKED bt_status bt_ledger_make_tables(bt_ledger* ledger, bt_diag* diag);
 /// file when it is open for writing, and read as empty when it is not. Prepares ledger->select.
 BT_CHECKED bt_status bt_ledger_bind_columns(bt_ledger* ledger, bool writing, bt_diag* diag);
 
+/// What computes landings here: version and instruction set, on which their last bits depend. A
+/// ledger keeps it as the remark "made_by".
+enum { BT_MAKER_SIZE = 96 };
+void bt_ledger_maker(char* text, size_t size);
+
 /// Hash of everything a run says but its wall-clock time, as the file keeps it.
 uint64_t bt_ledger_hash_run(const bt_ledger* ledger, int64_t run, const double* x,
                             double log_density, const bt_landing_result* result);

@@ -1,13 +1,20 @@
+#include "base/text.h"
 #include "base/units.h"
 #include "cli/chain.h"
 #include "cli/output.h"
+#include "cluster/slurm.h"
+#include "report/campaign_status.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
 
-enum { OPTION_SHARD, OPTION_TIME_LIMIT };
+enum { OPTION_SHARD, OPTION_TIME_LIMIT, OPTION_SLURM, OPTION_PARTS };
 
 /// "2/8" -> shard 1 of 8 (counted from 0).
 static bool read_shard(const bt_command* command, const char* text, int* shard, int* shards) {
@@ -28,29 +35,43 @@ static bool read_shard(const bt_command* command, const char* text, int* shard, 
     return false;
 }
 
+/// The rate that another process says in status.json, unless that is more than ten seconds old.
+static double rate_of_worker(const bt_chain* chain) {
+    static const char key[] = "\"rate_per_s\": ";
+    char path[BT_FILE_PATH_MAX], *text = NULL;
+    struct stat info;
+    double rate = NAN;
+    if (bt_study_directory_file(&chain->directory, "status.json", path) != BT_OK ||
+        stat(path, &info) != 0 || difftime(time(NULL), info.st_mtime) > 10 ||
+        bt_file_read(path, &text, NULL, NULL) != BT_OK)
+        return NAN;
+    const char* at = strstr(text, key);
+    if (at && bt_text_scan_number(at + sizeof key - 1, &rate) == at + sizeof key - 1)
+        rate = NAN; // null
+    free(text);
+    return rate;
+}
+
 static bt_status print(bt_chain* chain, int64_t total, const bt_ledger_counts* counts) {
-    uint64_t hash = 0;
-    char path[BT_FILE_PATH_MAX], hash_text[24];
-    BT_TRY(bt_ledger_hash(chain->ledger, &hash, &chain->diag));
+    char path[BT_FILE_PATH_MAX];
+    bt_campaign_status status = {.wanted = total,
+                                 .done = counts->runs,
+                                 .engaged = counts->engaged,
+                                 .missed = counts->missed,
+                                 .failed = counts->failed,
+                                 .rate_per_s = rate_of_worker(chain),
+                                 .ledger = path};
+    BT_TRY(bt_ledger_hash(chain->ledger, &status.content, &chain->diag));
     BT_TRY(bt_study_directory_file(&chain->directory, BT_LEDGER_NAME, path));
-    snprintf(hash_text, sizeof hash_text, "%016" PRIx64, hash);
-    if (!chain->command->json) {
-        printf("%lld of %lld landings: %lld engaged, %lld missed, %lld failed\n"
-               "ledger %s (content %s)\n",
-               (long long)counts->runs, (long long)total, (long long)counts->engaged,
-               (long long)counts->missed, (long long)counts->failed, path, hash_text);
+    if (chain->command->json) {
+        bt_json json = {.out = stdout};
+        bt_campaign_status_write(&json, &status);
         return BT_OK;
     }
-    bt_json json = {.out = stdout};
-    bt_json_begin_object(&json, NULL);
-    bt_json_integer(&json, "total", total);
-    bt_json_integer(&json, "done", counts->runs);
-    bt_json_integer(&json, "engaged", counts->engaged);
-    bt_json_integer(&json, "missed", counts->missed);
-    bt_json_integer(&json, "failed", counts->failed);
-    bt_json_string(&json, "ledger", path);
-    bt_json_string(&json, "ledger_hash", hash_text);
-    bt_json_end_object(&json);
+    printf("%lld of %lld landings: %lld engaged, %lld missed, %lld failed\n"
+           "ledger %s (content %016" PRIx64 ")\n",
+           (long long)counts->runs, (long long)total, (long long)counts->engaged,
+           (long long)counts->missed, (long long)counts->failed, path, status.content);
     return BT_OK;
 }
 
@@ -84,6 +105,34 @@ static bt_status merge(bt_chain* chain) {
     return print_state(chain);
 }
 
+/// Scripts instead of landings.
+static bt_status write_slurm(const bt_command* command) {
+    const char* parts_text = command->option[OPTION_PARTS];
+    const char* directory = command->option[OPTION_SLURM];
+    bt_diag diag = bt_stderr_diag();
+    int64_t parts = 16;
+    if (parts_text && !bt_whole_number(command, "--parts", parts_text, 1, &parts))
+        return BT_ERR_ARG;
+    if (parts > BT_SLURM_PARTS_MAX)
+        return bt_usage_error(command, "--parts: at most %d", (int)BT_SLURM_PARTS_MAX);
+    if (!*directory || command->option[OPTION_SHARD] || command->output)
+        return bt_usage_error(command, "--slurm DIR goes with neither --shard nor -o");
+    char program[BT_FILE_PATH_MAX];
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (length > 0)
+        program[length] = '\0';
+    else
+        snprintf(program, sizeof program, "bolter");
+    bt_study study;
+    BT_TRY(bt_command_study(command, &study));
+    const bt_status status = bt_slurm_write(&study, directory, program, (int)parts, &diag);
+    bt_study_destroy(&study);
+    if (status == BT_OK && !command->quiet)
+        printf("look at %s/landings.sh and results.sh, then run %s/submit.sh\n", directory,
+               directory);
+    return status;
+}
+
 static bt_status run(const bt_command* typed) {
     const bool status_only = strcmp(typed->words[0], "status") == 0;
     const bool merging = strcmp(typed->words[0], "merge") == 0;
@@ -101,6 +150,10 @@ static bt_status run(const bt_command* typed) {
     const char* part = command.option[OPTION_SHARD];
     if (part && !read_shard(&command, part, &shard, &shards))
         return BT_ERR_ARG;
+    if (command.option[OPTION_PARTS] && !command.option[OPTION_SLURM])
+        return bt_usage_error(&command, "--parts goes with --slurm DIR");
+    if (command.option[OPTION_SLURM])
+        return write_slurm(&command);
     BT_TRY(bt_time_limit(&command, command.option[OPTION_TIME_LIMIT]));
 
     bt_chain chain;
@@ -119,6 +172,9 @@ static const struct argp_option options[] = {
      "run only part i of n; each part in a directory of its own (-o)", 1},
     {"time-limit", BT_OPTION + OPTION_TIME_LIMIT, "TIME", 0,
      "end in order after this time, '50 min' or '12 h', with exit code 130; run again to go on", 1},
+    {"slurm", BT_OPTION + OPTION_SLURM, "DIR", 0,
+     "run nothing; write scripts into DIR that run the study on a cluster with Slurm", 1},
+    {"parts", BT_OPTION + OPTION_PARTS, "N", 0, "tasks of the job array of --slurm (16)", 1},
     {0},
 };
 

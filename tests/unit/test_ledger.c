@@ -621,6 +621,43 @@ static void what_a_user_does_to_the_runs_is_counted(void** state) {
     assert_int_equal(sql_count(f, "SELECT runs FROM totals WHERE pending = 0"), 13);
 }
 
+/// Another instruction set, and another format: neither is merged; an empty ledger takes either.
+static void shards_of_another_maker_are_refused(void** state) {
+    fixture* f = *state;
+    char part[4096], whole[4096];
+    int64_t added = 0;
+    snprintf(whole, sizeof whole, "%s", f->path);
+    toy_path(part, f->directory, "part.sqlite");
+    snprintf(f->path, sizeof f->path, "%s", part);
+    fill(f, 0, 5);
+    sql(f, "UPDATE meta SET value = 'bolter 0.2.0, kernels v9' WHERE key = 'made_by'");
+    snprintf(f->path, sizeof f->path, "%s", whole);
+    fill(f, 5, 8);
+    bt_ledger* ledger = opened(f);
+    assert_int_equal(bt_ledger_merge(ledger, part, &added, &f->diag), BT_ERR_INPUT);
+    assert_non_null(strstr(f->messages.last, "kernels v9"));
+    assert_int_equal(count(f, ledger), 3);
+    bt_ledger_close(ledger);
+
+    remove(f->path);
+    ledger = opened(f);
+    assert_int_equal(bt_ledger_merge(ledger, part, &added, &f->diag), BT_OK);
+    assert_int_equal(added, 5);
+    bt_ledger_close(ledger);
+    assert_int_equal(sql_count(f, "SELECT count(*) FROM meta WHERE value LIKE '%kernels v9'"), 1);
+    // what goes on here with landings of another maker is told
+    assert_int_equal(open_status(f, BT_LEDGER_WRITE), BT_OK);
+    assert_non_null(strstr(f->messages.last, "was begun by"));
+
+    snprintf(f->path, sizeof f->path, "%s", part);
+    sql(f, "PRAGMA user_version = 3");
+    snprintf(f->path, sizeof f->path, "%s", whole);
+    ledger = opened(f);
+    assert_int_equal(bt_ledger_merge(ledger, part, &added, &f->diag), BT_ERR_IO);
+    assert_non_null(strstr(f->messages.last, "format 3"));
+    bt_ledger_close(ledger);
+}
+
 static void every_result_is_a_column(void** state) {
     fixture* f = *state;
     bt_ledger_close(opened(f));
@@ -773,6 +810,7 @@ int main(void) {
         TEST(remarks_and_density_come_back_to_the_bit),
         TEST(totals_are_what_the_rows_add_up_to),
         TEST(what_a_user_does_to_the_runs_is_counted),
+        TEST(shards_of_another_maker_are_refused),
         TEST(every_result_is_a_column),
         TEST(a_column_that_a_user_adds_is_left_alone),
         TEST(a_result_that_the_file_does_not_have_reads_empty_and_is_added),
