@@ -3,8 +3,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// Misses of one mode, sorted out: grouped along the input whose distribution among them differs
-/// most from that among all landings, cut where a part of its range holds few of them.
+/// Misses of one mode, in or after the first bounce, sorted out: grouped along the input whose
+/// distribution among them differs most from that among all landings, cut where a part of its range
+/// holds few of them.
 enum { BINS = 16 };
 
 static double coordinate(const bt_page_landings* l, int landing, int axis) {
@@ -78,12 +79,15 @@ static int typical(const bt_page_landings* l, const scratch* s, const int* membe
     return best;
 }
 
-static void add_group(bt_page* page, const scratch* s, bt_mode mode, int axis, int count) {
+static void add_group(bt_page* page, const scratch* s, const bt_miss_group* kind, int axis,
+                      int count) {
     const bt_page_landings* l = &page->landings;
     if (count == 0 || page->group_count == BT_MISS_GROUP_MAX)
         return;
     bt_miss_group* g = &page->group[page->group_count++];
-    *g = (bt_miss_group){.mode = mode, .axis = axis, .count = count};
+    *g = *kind;
+    g->axis = axis;
+    g->count = count;
     g->typical = typical(l, s, s->part, count);
     sorted(l, s->part, count, axis, s->some);
     g->least = s->some[count / 20];
@@ -107,7 +111,7 @@ static int valley(const int bin[BINS], int first, int last) {
     return best;
 }
 
-static void group_mode(bt_page* page, const scratch* s, bt_mode mode, int count) {
+static void group_kind(bt_page* page, const scratch* s, const bt_miss_group* kind, int count) {
     const bt_page_landings* l = &page->landings;
     const int axis = telling_axis(l, s, count);
     sorted(l, NULL, l->count, axis, s->all);
@@ -126,7 +130,7 @@ static void group_mode(bt_page* page, const scratch* s, bt_mode mode, int count)
             if ((at >= begin || begin == 0) && (at < end || end == BINS))
                 s->part[part++] = s->member[i];
         }
-        add_group(page, s, mode, axis, part);
+        add_group(page, s, kind, axis, part);
         begin = end;
     }
 }
@@ -135,16 +139,21 @@ static int larger_first(const void* a, const void* b) {
     return ((const bt_miss_group*)b)->count - ((const bt_miss_group*)a)->count;
 }
 
-static void find(bt_page* page, const scratch* s) {
+static void find_kind(bt_page* page, const scratch* s, const bt_miss_group* kind) {
     const bt_page_landings* l = &page->landings;
-    for (int mode = 0; mode < BT_MODE_COUNT; ++mode) {
-        int count = 0;
-        for (int i = 0; i < l->count; ++i)
-            if (l->mode[i] == mode && l->outcome[i] == BT_MISSED)
-                s->member[count++] = i;
-        if (count > 0)
-            group_mode(page, s, (bt_mode)mode, count);
-    }
+    int count = 0;
+    for (int i = 0; i < l->count; ++i)
+        if (l->outcome[i] == BT_MISSED && l->mode[i] == kind->mode &&
+            l->bounced[i] == kind->bounced)
+            s->member[count++] = i;
+    if (count > 0)
+        group_kind(page, s, kind, count);
+}
+
+static void find(bt_page* page, const scratch* s) {
+    for (int mode = 0; mode < BT_MODE_COUNT; ++mode)
+        for (int bounced = 0; bounced < 2; ++bounced)
+            find_kind(page, s, &(bt_miss_group){.mode = (bt_mode)mode, .bounced = bounced});
     qsort(page->group, (size_t)page->group_count, sizeof page->group[0], larger_first);
 }
 
@@ -175,8 +184,9 @@ void bt_page_atlas_write(bt_page* page) {
         double factor;
         const char* unit = bt_display_unit(input->field, &factor);
         bt_display_label(input->path, label, sizeof label);
-        snprintf(region, sizeof region, "%s %.3g to %.3g %s", label, factor * g->least,
-                 factor * g->greatest, unit);
+        snprintf(region, sizeof region, "%s; %s %.3g to %.3g %s",
+                 g->bounced ? "after the first bounce" : "in or before the first bounce", label,
+                 factor * g->least, factor * g->greatest, unit);
         bt_json_begin_object(page->json, NULL);
         bt_json_string(page->json, "mode", bt_mode_name(g->mode));
         bt_json_string(page->json, "region", region);

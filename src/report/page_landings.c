@@ -28,7 +28,8 @@ static bool grow(bt_page_landings* l) {
     if (!resize((void**)&l->run, room * sizeof *l->run) ||
         !resize((void**)&l->x, room * dims * sizeof *l->x) ||
         !resize((void**)&l->margin_m, room * sizeof *l->margin_m) ||
-        !resize((void**)&l->mode, room) || !resize((void**)&l->outcome, room))
+        !resize((void**)&l->mode, room) || !resize((void**)&l->outcome, room) ||
+        !resize((void**)&l->bounced, room))
         return false;
     l->room = (int)room;
     return true;
@@ -52,6 +53,7 @@ static bool take(void* user, const bt_ledger_row* row) {
     l->margin_m[i] = row->result.margin_m;
     l->mode[i] = (uint8_t)row->result.mode;
     l->outcome[i] = (uint8_t)row->result.outcome;
+    l->bounced[i] = row->result.bounce_count > 0 && row->result.bounces[0].complete;
     return true;
 }
 
@@ -76,6 +78,7 @@ void bt_page_landings_destroy(bt_page_landings* l) {
     free(l->margin_m);
     free(l->mode);
     free(l->outcome);
+    free(l->bounced);
     *l = (bt_page_landings){0};
 }
 

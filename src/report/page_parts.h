@@ -16,11 +16,13 @@ typedef struct bt_page_landings {
     double* margin_m; ///< NAN where there is none
     uint8_t* mode;    ///< bt_mode
     uint8_t* outcome; ///< bt_outcome
+    uint8_t* bounced; ///< 1: the hook had ended its first bounce on the deck
 } bt_page_landings;
 
 /// Misses of one mode in one part of the inputs' range.
 typedef struct bt_miss_group {
     bt_mode mode;
+    bool bounced;
     int axis;               ///< whose range tells them best from all landings
     double least, greatest; ///< of that input: the middle nine tenths of the group, SI
     int count, typical;     ///< landings in it; index of the one nearest to all others' middle

@@ -15,9 +15,10 @@ function curve(data, input, rows) {
   return figure({
     name: `reliability-${input.path.replaceAll(".", "-")}`,
     caption: `Probability of engagement over the mean of ${input.label}${paper}. Bars: 95 % interval of the corrected estimate; ` +
-      "crosses: the classifier alone.",
-    columns: [`${input.path} [${input.unit}]`, "corrected", "lower", "upper", "surrogate", "surrogate_lower", "surrogate_upper"],
-    rows: rows.map((r) => [at(r), r.corrected, ...(r.corrected_ci95 ?? []), r.surrogate, ...(r.surrogate_ci95 ?? [])]),
+      "crosses: the classifier alone; diamonds: landings of the campaign weighted, without a classifier.",
+    columns: [`${input.path} [${input.unit}]`, "corrected", "lower", "upper", "surrogate", "surrogate_lower", "surrogate_upper",
+      "reweighted", "reweighted_lower", "reweighted_upper"],
+    rows: rows.map((r) => [at(r), r.corrected, ...(r.corrected_ci95 ?? []), r.surrogate, ...(r.surrogate_ci95 ?? ["", ""]), r.reweighted, ...(r.reweighted_ci95 ?? [])]),
     draw: (width) => Plot.plot({
       width, height: 320, style: plotStyle, marginLeft: 50, ...below,
       x: { ...acrossAxis(`mean of ${input.label}, ${input.unit}`), nice: true, inset: 6 },
@@ -28,7 +29,9 @@ function curve(data, input, rows) {
         Plot.dot(rows, { x: at, y: "corrected", fill: series[0], r: 4,
           title: (r) => `${at(r).toPrecision(4)} ${input.unit}: ${percent(r.corrected, r.corrected_ci95)}`, tip: true }),
         Plot.dot(rows, { x: at, y: "surrogate", stroke: series[1], symbol: "times", r: 4 }),
-        ...key(["corrected", "classifier alone"], (_, i) => series[i], { anchor: "bottom-right", dy: -20 }),
+        Plot.dot(rows.filter((r) => r.reweighted != null), { x: at, y: "reweighted", stroke: series[2], symbol: "diamond", r: 4 }),
+        ...key(["corrected", "classifier alone", ...(rows.some((r) => r.reweighted != null) ? ["reweighted"] : [])],
+          (_, i) => series[i], { anchor: "bottom-right", dy: -36 }),
       ],
     }),
   });
