@@ -178,6 +178,17 @@ static bt_status evaluate(const evaluation* e, int condition, bt_reliability_row
                    : BT_OK;
 }
 
+static bt_reliability_classifier describe(const bt_surrogate* s) {
+    bt_reliability_classifier c = {.holdout_accuracy = bt_surrogate_holdout_accuracy(&s->scores),
+                                   .holdout_count = s->scores.holdout_count,
+                                   .support_vectors = s->sv_count,
+                                   .C = s->C,
+                                   .gamma = s->gamma};
+    for (int k = 0; k < s->dims; ++k)
+        c.features = c.features || strncmp(s->path[k], "feature.", 8) == 0;
+    return c;
+}
+
 static bt_status evaluate_all(const evaluation* e, bt_reliability_result* result) {
     const int total = e->study->condition_count + 1;
     const bt_reliability_options* o = e->options;
@@ -194,6 +205,7 @@ static bt_status evaluate_all(const evaluation* e, bt_reliability_result* result
         result->landings += o->judged->evidence->count;
         bt_pool_rows_differ(e->pool, e->study, result);
     }
+    result->classifier = describe(e->surrogate);
     bt_reliability_warn(e->surrogate, result);
     return BT_OK;
 }

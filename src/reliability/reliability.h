@@ -47,13 +47,22 @@ typedef struct bt_reliability_difference {
     bt_interval ci95;
 } bt_reliability_difference;
 
+/// The surrogate behind the table.
+typedef struct bt_reliability_classifier {
+    double holdout_accuracy; ///< NAN when nothing was held out
+    int holdout_count, support_vectors;
+    bool features; ///< it learnt from physics features too
+    double C, gamma;
+} bt_reliability_classifier;
+
 enum { BT_WARNING_MAX = 8, BT_WARNING_SIZE = 320 };
 
 typedef struct bt_reliability_result {
     int condition_count;
     bt_reliability_row condition[BT_CONDITION_MAX];
     bt_reliability_row overall; ///< every input about its own mean
-    int64_t landings;           ///< in the ledger, and fresh runs: each counted once
+    bt_reliability_classifier classifier;
+    int64_t landings; ///< in the ledger, and fresh runs: each counted once
     int difference_count;
     bt_reliability_difference difference[BT_CONDITION_MAX]; ///< neighbours of one input
     int warning_count;

@@ -50,6 +50,17 @@ static void write_difference(bt_json* json, const bt_reliability_result* result,
     bt_json_end_object(json);
 }
 
+static void write_classifier(bt_json* json, const bt_reliability_classifier* c) {
+    bt_json_begin_object(json, "classifier");
+    bt_json_number(json, "holdout_accuracy", c->holdout_accuracy);
+    bt_json_integer(json, "holdout_n", c->holdout_count);
+    bt_json_bool(json, "features", c->features);
+    bt_json_number(json, "C", c->C);
+    bt_json_number(json, "gamma", c->gamma);
+    bt_json_integer(json, "support_vectors", c->support_vectors);
+    bt_json_end_object(json);
+}
+
 void bt_reliability_write_json(bt_json* json, const bt_reliability_result* result) {
     bt_json_begin_object(json, NULL);
     bt_json_begin_array(json, "conditions");
@@ -62,6 +73,7 @@ void bt_reliability_write_json(bt_json* json, const bt_reliability_result* resul
         write_difference(json, result, &result->difference[i]);
     bt_json_end_array(json);
     bt_json_integer(json, "landings", result->landings);
+    write_classifier(json, &result->classifier);
     bt_json_begin_array(json, "warnings");
     for (int i = 0; i < result->warning_count; ++i)
         bt_json_string(json, NULL, result->warning[i]);

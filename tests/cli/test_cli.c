@@ -395,9 +395,21 @@ static void the_whole_chain_at_small_size(void** state) {
     for (const char* at = f->out; (at = strstr(at, "\"parameter\": ")); ++at)
         ++conditions;
     assert_int_equal(conditions, 24);
-    static const char* const keys[] = {"value",      "surrogate",      "surrogate_ci95",
-                                       "corrected",  "corrected_ci95", "samples",
-                                       "truth_runs", "disagreements"};
+    static const char* const keys[] = {"value",
+                                       "surrogate",
+                                       "surrogate_ci95",
+                                       "corrected",
+                                       "corrected_ci95",
+                                       "samples",
+                                       "truth_runs",
+                                       "disagreements",
+                                       "reweighted",
+                                       "corrected_unseen",
+                                       "effective_landings",
+                                       "differences",
+                                       "classifier",
+                                       "holdout_n",
+                                       "warnings"};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i)
         assert_has(f->out, keys[i]);
     char* stored = read_text(f, "small/reliability.json");
