@@ -4,6 +4,7 @@
 # unsharded run, bit for bit. Then the same study on the ranks of mpirun inside a job.
 # usage: scripts/cluster-test.sh BOLTER   (root: it starts munged, slurmctld and slurmd)
 set -euo pipefail
+shopt -s inherit_errexit
 bolter=$(realpath "$1")
 cd "$(dirname "$0")/.."
 [ "$(id -u)" -eq 0 ] || { echo "cluster-test: needs root, to start Slurm's daemons" >&2; exit 2; }
@@ -75,14 +76,16 @@ echo "cluster-test: Slurm $(sinfo --version | cut -d' ' -f2) is up"
 
 # --- the study --------------------------------------------------------------------------------
 # A coarse cable: ten milliseconds a landing.
-study=(studies/reference/study.yaml --set campaign.samples=1600
+study=(studies/reference/study.yaml --set campaign.samples=1600 --set campaign.unsure=0
     --set "deck.cable.mesh.fine_length=0.2 m" --set "deck.cable.mesh.medium_length=0.3 m"
     --set "deck.cable.mesh.coarse_length=0.6 m" --set reliability.samples=1000
     --set reliability.truth_runs=0)
 content() {
-    "$bolter" campaign status "${study[@]}" -o "$1" --json | sed -n 's/.*"ledger_hash": "\(.*\)".*/\1/p'
+    "$bolter" campaign status "${study[@]}" -o "$1" --json | sed -n 's/.*"content": "\(.*\)".*/\1/p'
 }
 "$bolter" campaign "${study[@]}" -o "$scratch/alone" --quiet >/dev/null
+alone=$(content "$scratch/alone")
+[ -n "$alone" ]
 jobs=$scratch/jobs
 "$bolter" campaign "${study[@]}" --slurm "$jobs" --parts 4
 
@@ -109,9 +112,9 @@ echo "cluster-test: requeued task 1, ended task 2, cancelled task 3; submitting 
 results=$(sed -n 's/.*results: job \([0-9]*\),.*/\1/p' "$scratch/submitted")
 wait_for 600 is_over "$results"
 test -s "$jobs/results/reliability.json"
-[ "$(content "$scratch/alone")" = "$(content "$jobs/results")" ] ||
+[ "$alone" = "$(content "$jobs/results")" ] ||
     { echo "cluster-test: the merged ledger is not that of an unsharded run" >&2; exit 1; }
-echo "cluster-test: the merged ledger is the unsharded one: $(content "$jobs/results")"
+echo "cluster-test: the merged ledger is the unsharded one: $alone"
 
 # --- the ranks of mpirun in a job -------------------------------------------------------------
 if "$bolter" --version --verbose | grep -q '^mpi '; then
@@ -122,7 +125,7 @@ exec mpirun --mca plm ^slurm --mca ras ^slurm -n $(nproc) '$bolter' campaign $(p
 JOB
     )
     wait_for 300 is_over "$job"
-    [ "$(content "$scratch/alone")" = "$(content "$scratch/ranks")" ] ||
+    [ "$alone" = "$(content "$scratch/ranks")" ] ||
         { echo "cluster-test: the ledger of the ranks is not that of one process" >&2; exit 1; }
     echo "cluster-test: $(nproc) ranks of mpirun in a job give the same ledger"
 fi

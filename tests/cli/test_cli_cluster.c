@@ -7,7 +7,7 @@
 #define COARSE                                                                                     \
     REFERENCE " --set deck.cable.mesh.fine_length='0.2 m' --set "                                  \
               "deck.cable.mesh.medium_length='0.3 m' --set deck.cable.mesh.coarse_length='0.6 m' " \
-              "--set campaign.samples=60"
+              "--set campaign.samples=60 --set campaign.unsure=0"
 
 /// The line of a key in a JSON object, its comma left out.
 static void value_of(const char* json, const char* key, char value[64]) {

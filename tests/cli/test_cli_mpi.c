@@ -8,7 +8,8 @@
 /// A coarse cable, so that a landing takes ten milliseconds.
 #define COARSE                                                                                     \
     REFERENCE " --set deck.cable.mesh.fine_length='0.2 m' --set "                                  \
-              "deck.cable.mesh.medium_length='0.3 m' --set deck.cable.mesh.coarse_length='0.6 m'"
+              "deck.cable.mesh.medium_length='0.3 m' --set deck.cable.mesh.coarse_length='0.6 m' " \
+              "--set campaign.unsure=0"
 
 /// `mpirun` that starts anywhere: as root, on few cores, without a terminal.
 static int prepare(void** state) {
