@@ -29,6 +29,7 @@ from .errors import (
     NumericError,
     OutOfMemoryError,
 )
+from .flight import Flight
 from .history import read_history
 from .results import Cable, Counts, Fit, Key, Landing, Metric, Quantity, Rig
 from .study import Study, keys, modes, results
@@ -45,6 +46,7 @@ __all__ = [
     "FailedRunsError",
     "FileError",
     "Fit",
+    "Flight",
     "InputError",
     "InternalError",
     "InterruptedRunError",

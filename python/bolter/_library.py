@@ -214,6 +214,33 @@ class bt_fit_def(c.Structure):
     _fields_ = [("size", c.c_size_t), ("again", c.c_bool)]
 
 
+class bt_reliability_line(c.Structure):
+    _fields_ = [
+        ("parameter", c.c_char_p),
+        ("unit", c.c_char_p),
+        ("value", c.c_double),
+        ("corrected", c.c_double),
+        ("corrected_ci95", c.c_double * 2),
+        ("corrected_sampling", c.c_double),
+        ("corrected_unseen", c.c_double),
+        ("reweighted", c.c_double),
+        ("reweighted_ci95", c.c_double * 2),
+        ("effective_landings", c.c_double),
+        ("surrogate", c.c_double),
+        ("surrogate_ci95", c.c_double * 2),
+        ("outside_share", c.c_double),
+        ("landings", c.c_int64),
+    ]
+
+
+RELIABILITY_VISIT = c.CFUNCTYPE(None, c.c_void_p, c.POINTER(bt_reliability_line))
+RELIABILITY_PROGRESSED = c.CFUNCTYPE(c.c_bool, c.c_void_p, c.c_int, c.c_int)
+
+
+class bt_reliability_def(c.Structure):
+    _fields_ = [("size", c.c_size_t), ("progress", RELIABILITY_PROGRESSED), ("user", c.c_void_p)]
+
+
 STRUCTS = (
     bt_key,
     bt_landing_report,
@@ -229,6 +256,8 @@ STRUCTS = (
     bt_rig_def,
     bt_fit_report,
     bt_fit_def,
+    bt_reliability_line,
+    bt_reliability_def,
 )
 
 # --- functions ------------------------------------------------------------------------------
@@ -239,7 +268,7 @@ CAMPAIGN_VISIT = c.CFUNCTYPE(c.c_bool, c.c_void_p, c.POINTER(bt_campaign_row))
 
 _case, _text, _int, _user = c.c_void_p, c.c_char_p, c.c_int, c.c_void_p
 _texts, _opened, _real = c.POINTER(c.c_char_p), c.POINTER(c.c_void_p), c.POINTER(c.c_double)
-_p = c.POINTER
+_flight, _p = c.c_void_p, c.POINTER
 
 #: name: (result, arguments)
 FUNCTIONS = {
@@ -270,6 +299,17 @@ FUNCTIONS = {
     "bt_case_fit": (_int, [_case, _p(bt_fit_def), _p(bt_fit_report)]),
     "bt_case_fit_inputs": (_int, [_case]),
     "bt_case_fit_input": (_text, [_case, _int]),
+    "bt_case_reliability": (
+        _int,
+        [_case, _p(bt_reliability_def), RELIABILITY_VISIT, _user],
+    ),
+    "bt_flight_create": (_int, [_case, _p(_flight)]),
+    "bt_flight_destroy": (None, [_flight]),
+    "bt_flight_step": (c.c_bool, [_flight]),
+    "bt_flight_look": (None, [_flight, LANDING_WATCH, _user]),
+    "bt_flight_copy": (_int, [_flight, _p(_flight)]),
+    "bt_flight_equal": (c.c_bool, [_flight, _flight]),
+    "bt_flight_report": (_int, [_flight, _p(bt_landing_report)]),
     "bt_case_predict": (_int, [_case, c.c_void_p, _int, c.c_void_p]),
 }
 

@@ -11,6 +11,7 @@ from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tupl
 
 from . import _library as lib
 from .errors import BY_STATUS, ArgumentError, BolterError, BolterWarning, Message
+from .flight import Flight
 from .points import Block, block
 from .results import Cable, Counts, Fit, Key, Landing, Metric, Quantity, Rig
 from .table import Table, column
@@ -328,6 +329,15 @@ class Study:
             cable=cable.cable() if histories else None,
         )
 
+    def flight(self) -> Flight:
+        """The landing of the study as it is now, at its start, to be stepped and looked at; it may
+        outlive the study."""
+        return Flight(self._create_flight)
+
+    def _create_flight(self, to: Any) -> int:
+        self._call(_L.bt_flight_create, to)
+        return 0
+
     def _values(self) -> Dict[str, float]:
         value = c.c_double()
         to, case, read = c.byref(value), self._case, _L.bt_case_result
@@ -460,6 +470,31 @@ class Study:
         self._call(_L.bt_case_predict, rows.address, rows.count, values.address)
         return values.column(0)
 
+    def reliability(self, progress: Optional[Callable[[int, int], Any]] = None) -> Table:
+        """The probability that the hook catches the wire, for every condition of the study.
+
+        Uses the ledger and the classifier, which is trained when it is not up to date. One row
+        per condition in the study's order, last the study as it stands (``parameter`` ""); columns:
+        ``parameter``, ``unit``, ``value`` (the mean of that input, SI); ``corrected`` (classifier
+        and landings together: the number to defend) with ``corrected_low``, ``corrected_high``
+        and the parts ``corrected_sampling``, ``corrected_unseen`` of its half-width; ``reweighted``
+        (landings alone), ``surrogate`` (classifier alone) with their intervals;
+        ``effective_landings``, ``outside_share``, ``landings``. Intervals at 95 %; NAN: not found.
+
+        :param progress: called with (done, total) after each condition; False stops
+        :raises FileError: there is no ledger
+        """
+        rows: List[Tuple[Any, ...]] = []
+        seen = _Callback(lambda _user, line: rows.append(_reliability_row(line.contents)))
+        pulse = _Callback(lambda _user, done, total: progress(done, total) if progress else True)
+        definition = lib.bt_reliability_def(
+            c.sizeof(lib.bt_reliability_def), lib.RELIABILITY_PROGRESSED(pulse)
+        )
+        visit = lib.RELIABILITY_VISIT(seen)
+        self._stoppable(pulse, _L.bt_case_reliability, c.byref(definition), visit, None)
+        seen.raise_again()
+        return Table({n: column(v) for n, v in zip(_RELIABILITY_COLUMNS, zip(*rows))})
+
     # --- rigs -------------------------------------------------------------------------------
 
     def rig(self, name: str, histories: bool = True) -> Rig:
@@ -542,6 +577,42 @@ def _report_row(report: Any) -> Iterator[Any]:
     yield "; ".join(texts["remarks"])
     yield texts["failure"]
     yield report.state_hash
+
+
+_RELIABILITY_COLUMNS = (
+    "parameter",
+    "unit",
+    "value",
+    *(
+        f"{kind}{end}"
+        for kind in ("corrected", "reweighted", "surrogate")
+        for end in ("", "_low", "_high")
+    ),
+    "corrected_sampling",
+    "corrected_unseen",
+    "effective_landings",
+    "outside_share",
+    "landings",
+)
+
+
+def _reliability_row(r: Any) -> Tuple[Any, ...]:
+    return (
+        lib.decode(r.parameter),
+        lib.decode(r.unit),
+        r.value,
+        r.corrected,
+        *r.corrected_ci95,
+        r.reweighted,
+        *r.reweighted_ci95,
+        r.surrogate,
+        *r.surrogate_ci95,
+        r.corrected_sampling,
+        r.corrected_unseen,
+        r.effective_landings,
+        r.outside_share,
+        r.landings,
+    )
 
 
 def _counts(n: Any) -> Counts:

@@ -8,6 +8,7 @@ import tempfile
 import threading
 import unittest
 import warnings
+import warnings
 from pathlib import Path
 
 import bolter
@@ -208,6 +209,23 @@ class Landings(unittest.TestCase):
         self.assertEqual(len(hashes), 4)
         self.assertEqual(len(set(hashes)), 1)
 
+    def test_a_flight_is_the_landing_step_by_step(self):
+        with quick() as study:
+            landing = study.land(histories=True)
+            flight = study.flight()
+        steps, twin = 0, None
+        while flight.step():
+            steps += 1
+            if steps == 100:
+                twin = flight.copy()
+                self.assertTrue(twin.equals(flight))
+        self.assertEqual(flight.report()["state_hash"], landing.state_hash)
+        self.assertEqual(flight.look()["time_s"], landing.histories["time_s"][-1])
+        self.assertFalse(twin.equals(flight))
+        while twin.step():
+            pass
+        self.assertEqual(twin.report(), flight.report())
+
     @unittest.skipUnless(pandas, "no pandas")
     def test_data_frames_go_in_and_out(self):
         frame = pandas.DataFrame({"landing.distance": [4.0, 6.0]})
@@ -248,6 +266,26 @@ class Campaigns(unittest.TestCase):
             values = study.predict({path: ledger[path] for path in fit.inputs})
             right = sum((v > 0) == (o == "engaged") for v, o in zip(values, ledger["outcome"]))
             self.assertEqual(right, fit.train_correct + fit.holdout_correct)
+
+    def test_reliability_has_a_row_per_condition_and_one_for_the_study(self):
+        sets = ["campaign.samples=256", "reliability.samples=20000", "reliability.truth_runs=8"]
+        conditions = "reliability.conditions={landing.distance: [4 m, 6 m]}"
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore", bolter.BolterWarning)
+            study = bolter.Study.example("reference", [*COARSE, *sets, conditions])
+            study.directory = Path(folder, "campaign")
+            with self.assertRaises(bolter.FileError):
+                study.reliability()
+            study.campaign()
+            seen = []
+            table = study.reliability(progress=lambda done, total: seen.append((done, total)))
+        self.assertEqual(list(table["parameter"]), ["landing.distance"] * 2 + [""])
+        self.assertEqual(list(table["value"][:2]), [4, 6])
+        self.assertTrue(seen)
+        for low, p, high in zip(
+            table["corrected_low"], table["corrected"], table["corrected_high"]
+        ):
+            self.assertTrue(0 <= low <= p <= high <= 1)
 
     def test_shards_share_the_design(self):
         with tempfile.TemporaryDirectory() as folder, quick() as study:
