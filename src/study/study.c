@@ -1,5 +1,6 @@
 #include "study/study.h"
 
+#include "study/alternatives.h"
 #include "study/echo.h"
 #include "study/identity.h"
 #include "study/inputs.h"
@@ -282,6 +283,7 @@ static void read_chapters(reading* r) {
     bt_study* study = r->study;
     const int before = r->reader.errors;
 
+    bt_alternatives_apply(&r->reader, &r->document, r->root);
     read_title(r, bt_node_child(r->root, "title"));
     bt_rig_inputs_take(&r->reader, &r->names, r->files ? r->path : NULL, r->root, study);
     read_model(r);

@@ -222,6 +222,30 @@ static void measured_curve_with_wrong_columns_or_units_is_refused(void** state) 
     assert_has(f->err, "data.csv:3:1: error: time goes back");
 }
 
+/// The energy of the drop is what its mass brings at first contact.
+static void bore_and_energy_stand_for_area_and_speed(void** state) {
+    fixture* f = *state;
+    write_file(f, "nose.yaml",
+               "title: x\naircraft: {nose_gear: {piston_mass: 60 kg, wheel_mass: 20 kg, "
+               "wheel_inertia: 1 kg m^2, oleo: {air_diameter: 88.8 mm, precharge: 275 psig, "
+               "air_volume: 203 cu in, gas_exponent: 1.1, stroke_max: 400 mm, oil_diameter: 81 mm, "
+               "orifice_diameter: 14 "
+               "mm}, tyre: {radius: 279.5 mm, width: 168 mm}}}\n"
+               "rigs: {nose_drop: {mass: 2000 kg, drop_energy: 9 kJ}}\n");
+    assert_int_equal(bolter(f, "rig nose-drop %/nose.yaml -o %/b --json"), 0);
+    const char* energy = strstr(f->out, "\"impact_energy_J\"");
+    assert_non_null(energy);
+    BT_ASSERT_NEAR(strtod(strstr(energy, "\"value\":") + 8, NULL), 9000, 1e-12, 0);
+    assert_int_equal(bolter(f, "check %/nose.yaml --set "
+                               "aircraft.nose_gear.oleo.air_area='6200 mm^2'"),
+                     3);
+    assert_has(f->err, "air_diameter: stands in the place of air_area; give one of them");
+    assert_int_equal(bolter(f, "check %/nose.yaml --set "
+                               "aircraft.nose_gear.oleo.air_diameter='6200 mm^2'"),
+                     3);
+    assert_has(f->err, "has a unit of another dimension");
+}
+
 static void measured_curve_that_is_not_there_is_exit_code_5(void** state) {
     fixture* f = *state;
     write_spoilt(f, "      tolerance: 0.001", "      curve: none.csv");
@@ -249,6 +273,7 @@ int main(void) {
         TEST(drop_mass_below_the_leg_is_refused_with_its_place),
         TEST(measured_curve_is_drawn_beside_the_run),
         TEST(measured_curve_with_wrong_columns_or_units_is_refused),
+        TEST(bore_and_energy_stand_for_area_and_speed),
         TEST(measured_curve_that_is_not_there_is_exit_code_5),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
