@@ -225,6 +225,7 @@ void bt_ledger_close(bt_ledger* ledger) {
     if (!ledger)
         return;
     sqlite3_finalize(ledger->insert);
+    sqlite3_finalize(ledger->insert_contact);
     sqlite3_close(ledger->db);
     sqlite3_free(ledger->select);
     free(ledger);

@@ -1,8 +1,9 @@
 /// The ledger of a campaign: one SQLite file, one row per run, open to anyone's SQL.
 ///
 /// Tables: meta (key, value), inputs (idx, path, unit), runs (run, one column per input named by
-/// its path, log_density, status, then the columns of landing/result.h), totals (what the runs
-/// add up to). Views of runs: landings (all but the failed), misses, failed. SI throughout. A run
+/// its path, log_density, status, then the columns of landing/result.h), contacts (run, then
+/// bt_contact_columns: one row per landing and wire that its hook met), totals (what the runs add
+/// up to). Views of runs: landings (all but the failed), misses, failed. SI throughout. A run
 /// that diverged has status 'failed' and no outcome: it can never be taken for a label. Columns
 /// that a user adds are left alone.
 #ifndef BT_CAMPAIGN_LEDGER_H

@@ -17,7 +17,9 @@ typedef struct bt_ledger_totals {
 struct bt_ledger {
     sqlite3* db;
     sqlite3_stmt* insert;
-    char* select; ///< "SELECT ... FROM runs", every column by name; owned
+    sqlite3_stmt* insert_contact;
+    bool has_contacts; ///< the table; a file that was written before there was one has none
+    char* select;      ///< "SELECT ... FROM runs", every column by name; owned
     char path[BT_FILE_PATH_MAX];
     const bt_study* study;
     bt_axes axes;

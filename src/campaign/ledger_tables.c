@@ -47,11 +47,21 @@ static void append_runs(bt_ledger* ledger, sqlite3_str* text) {
     sqlite3_str_appendall(text, ");");
 }
 
+/// One row per landing and wire that its hook met.
+static void append_contacts(sqlite3_str* text) {
+    sqlite3_str_appendall(text, "CREATE TABLE IF NOT EXISTS contacts(run INTEGER");
+    for (int i = 0; i < bt_contact_column_count; ++i)
+        sqlite3_str_appendf(text, ", %s %s", bt_contact_columns[i].name,
+                            sql_type(bt_contact_columns[i].kind));
+    sqlite3_str_appendall(text, ", PRIMARY KEY(run, wire)) WITHOUT ROWID;");
+}
+
 bt_status bt_ledger_make_tables(bt_ledger* ledger, bt_diag* diag) {
     sqlite3_str* text = sqlite3_str_new(ledger->db);
     sqlite3_str_appendall(text, "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL);");
     append_inputs(ledger, text);
     append_runs(ledger, text);
+    append_contacts(text);
     sqlite3_str_appendall(text,
                           "CREATE VIEW landings AS SELECT * FROM runs WHERE status = 'done';"
                           "CREATE VIEW misses AS SELECT * FROM runs WHERE outcome = 'missed';"
@@ -102,7 +112,21 @@ static bt_status append_columns(bt_ledger* ledger, sqlite3_str* select, bool wri
     return BT_OK;
 }
 
+static bt_status find_contacts(bt_ledger* ledger, bool writing, bt_diag* diag) {
+    int64_t count = 0;
+    if (writing) {
+        sqlite3_str* text = sqlite3_str_new(ledger->db);
+        append_contacts(text);
+        BT_TRY(bt_ledger_execute_text(ledger, text, diag));
+    }
+    BT_TRY(
+        bt_ledger_ask(ledger, "SELECT count(*) FROM pragma_table_info('contacts')", &count, diag));
+    ledger->has_contacts = count > 0;
+    return BT_OK;
+}
+
 bt_status bt_ledger_bind_columns(bt_ledger* ledger, bool writing, bt_diag* diag) {
+    BT_TRY(find_contacts(ledger, writing, diag));
     sqlite3_str* select = sqlite3_str_new(ledger->db);
     const bt_status status = append_columns(ledger, select, writing, diag);
     ledger->select = sqlite3_str_finish(select);

@@ -29,12 +29,12 @@ static uint64_t hash_remarks(uint64_t hash, const bt_remarks* remarks) {
     return hash_text(hash, text);
 }
 
-static uint64_t hash_column(uint64_t hash, const bt_result_column* c,
-                            const bt_landing_result* result) {
-    const char* member = (const char*)result + c->offset;
+/// Of a landing or of a contact.
+static uint64_t hash_column(uint64_t hash, const bt_result_column* c, const void* from) {
+    const char* member = (const char*)from + c->offset;
     switch (c->kind) {
     case BT_RESULT_MODE:
-        if (result->outcome == BT_FAILED)
+        if (*(const bt_mode*)member == BT_MODE_NONE)
             return hash; // kept as NULL
         return bt_hash_bytes(hash, member, sizeof(int));
     case BT_RESULT_OUTCOME:
@@ -76,6 +76,9 @@ uint64_t bt_ledger_hash_run(const bt_ledger* ledger, int64_t run, const double* 
         if (bt_ledger_keeps(c) && c->offset != offsetof(bt_landing_result, wall_s))
             hash = hash_column(hash, c, result);
     }
+    for (int k = 0; k < result->contact_count; ++k)
+        for (int i = 0; i < bt_contact_column_count; ++i)
+            hash = hash_column(hash, &bt_contact_columns[i], &result->contacts[k]);
     return spread(hash);
 }
 

@@ -2,13 +2,14 @@
 #include "landing/parts.h"
 
 #include "landing/ship.h"
+#include "landing/wires.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// What a model may hold beside the airframe: assembled state, cable and its resting shape.
-static const size_t arena_size = 500 * 1024;
+/// What a model may hold beside airframe and cables: the assembled state.
+static const size_t arena_size = 32 * 1024;
 
 bt_status bt_landing_model_create(bt_landing_model** model) {
     *model = calloc(1, sizeof **model);
@@ -28,11 +29,12 @@ void bt_landing_model_destroy(bt_landing_model* model) {
     if (model->has_airframe)
         bt_airframe_destroy(&model->airframe);
     bt_arena_destroy(&model->arena);
+    bt_arena_destroy(&model->wire_arena);
     free(model);
 }
 
 size_t bt_landing_model_memory(const bt_landing_model* model) {
-    return sizeof *model + model->arena.size;
+    return sizeof *model + model->arena.size + model->wire_arena.size;
 }
 
 /// Builds the airframe unless the last one is the same.
@@ -50,7 +52,6 @@ static bt_status prepare_airframe(bt_landing_model* m, const bt_model_params* p,
                              &m->airframe, diag));
     m->has_airframe = true;
     BT_TRY(bt_state_create(m->airframe.system, &m->arena, &m->hanging));
-    m->airframe_mark = m->arena.used;
     return BT_OK;
 }
 
@@ -71,6 +72,54 @@ static bool same_wires(const bt_landing_model* m, const bt_model_params* p, doub
            memcmp(&last, &p->deck, sizeof last) == 0;
 }
 
+/// Room for so many cables and their resting shapes; the block grows and never shrinks.
+static bt_status reserve(bt_arena* arena, size_t size) {
+    bt_arena_reset(arena, 0);
+    if (arena->size >= size)
+        return BT_OK;
+    bt_arena_destroy(arena);
+    return bt_arena_create(arena, size);
+}
+
+/// The first wire with the same cable; `wire` itself when there is none before it.
+static int like(const bt_deck_params* deck, int wire) {
+    bt_cable_params mine, other;
+    bt_wires_cable(deck, wire, &mine);
+    for (int k = 0; k < wire; ++k) {
+        bt_wires_cable(deck, k, &other);
+        if (mine.pretension_N == other.pretension_N &&
+            mine.supports.height_m == other.supports.height_m)
+            return k;
+    }
+    return wire;
+}
+
+static bt_status build_cable(bt_landing_model* m, const bt_cable_params* p, double gravity_mps2,
+                             int at, bt_diag* diag) {
+    bt_cable_def def;
+    bt_cable_def_init(&def, p, gravity_mps2, m->segment_m);
+    def.level = m->kernel;
+    BT_TRY(bt_cable_model_init(&m->cable[at], &def, &m->wire_arena, diag));
+    BT_TRY(bt_cable_state_init(&m->cable[at], &m->resting[at], &m->wire_arena));
+    return bt_cable_equilibrium(&m->cable[at], &m->resting[at], NULL, diag);
+}
+
+/// Wires that are alike share cable and resting shape.
+static bt_status build_wires(bt_landing_model* m, const bt_deck_params* deck, bt_diag* diag) {
+    for (int k = 0; k < m->wire_count; ++k) {
+        const int at = like(deck, k);
+        bt_cable_params cable;
+        bt_wires_cable(deck, k, &cable);
+        if (at == k)
+            BT_TRY(build_cable(m, &cable, m->pressing_mps2, k, diag));
+        m->wire[k] = (bt_wire){.number = k + 1,
+                               .position_m = bt_wires_position(deck, k),
+                               .cable = &m->cable[at],
+                               .resting = &m->resting[at]};
+    }
+    return BT_OK;
+}
+
 /// Builds the wires and finds their equilibrium unless the last ones are the same.
 static bt_status prepare_wires(bt_landing_model* m, const bt_model_params* p, bt_diag* diag) {
     const double pressing_mps2 = bt_ship_pressing(&p->deck.motion, p->deck.gravity_mps2);
@@ -79,17 +128,16 @@ static bt_status prepare_wires(bt_landing_model* m, const bt_model_params* p, bt
     m->has_cable = false;
     m->pressing_mps2 = pressing_mps2;
     ++m->built;
-    bt_arena_reset(&m->arena, m->airframe_mark);
     bt_cable_def def;
     bt_cable_def_init(&def, &p->deck.cable, pressing_mps2, m->segment_m);
-    def.level = m->kernel;
-    if (bt_cable_memory(def.count, 1) > m->arena.size - m->arena.used)
+    m->wire_count = bt_wires_count(&p->deck);
+    if (def.count > BT_LANDING_SEGMENTS_MAX || m->wire_count * def.count > BT_DECK_SEGMENTS_MAX)
         return refuse_mesh(def.count, diag);
-    BT_TRY(bt_cable_model_init(&m->cable, &def, &m->arena, diag));
-    BT_TRY(bt_cable_state_init(&m->cable, &m->resting, &m->arena));
-    BT_TRY(bt_cable_equilibrium(&m->cable, &m->resting, NULL, diag));
-    m->wire_count = 1;
-    m->wire[0] = (bt_wire){.position_m = 0, .cable = &m->cable, .resting = &m->resting};
+    int unlike = 0;
+    for (int k = 0; k < m->wire_count; ++k)
+        unlike += like(&p->deck, k) == k;
+    BT_TRY(reserve(&m->wire_arena, (size_t)unlike * bt_cable_memory(def.count, 1)));
+    BT_TRY(build_wires(m, &p->deck, diag));
     m->has_cable = true;
     return BT_OK;
 }

@@ -11,10 +11,13 @@
 /// cable, m.
 #define BT_CLEAR_DISTANCE_M 14.0
 
-enum { BT_LANDING_SEGMENTS_MAX = 1000 }; ///< of cable; what the memory of one landing has room for
+enum {                              ///< segments; what the memory of one landing has room for
+    BT_LANDING_SEGMENTS_MAX = 1000, ///< of a wire
+    BT_DECK_SEGMENTS_MAX = 2400,    ///< of all wires together
+};
 
-/// A worker that runs landings one after another, with its own memory (at most 1 MB). One per
-/// thread; runs share nothing.
+/// A worker that runs landings one after another, with its own memory (at most 1 MB with one wire,
+/// 2 MB with several). One per thread; runs share nothing.
 typedef struct bt_lander bt_lander;
 BT_CHECKED bt_status bt_lander_create(bt_lander** lander);
 void bt_lander_destroy(bt_lander* lander);

@@ -30,7 +30,8 @@ static void observe_leg(const bt_landing_model* m, const bt_landing_state* s, in
     view->tyre_deflection_m[leg] = bt_landing_output(m, s, f->wheel[leg], BT_WHEEL_DEFLECTION);
     view->tyre_force_N[leg] =
         bt_landing_output(m, s, f->wheel[leg], BT_WHEEL_NORMAL) + a->applied[wheel + 2];
-    view->tyre_cable_force_N[leg] = s->wire[0].wheel[leg].normal_N;
+    for (int k = 0; k < m->wire_count; ++k)
+        view->tyre_cable_force_N[leg] += s->wire[k].wheel[leg].normal_N;
     view->wheel_spin_radps[leg] = a->v[wheel + 4];
     bt_system_joint_load(f->system, a, f->strut_joint[leg], force, torque);
     const double* up = a->rotation; // third column of the fuselage
@@ -49,7 +50,9 @@ static void observe_wire(const bt_landing_model* m, bt_landing_state* s, bt_land
     view->cable_y = wire->cable.y;
     view->cable_z = wire->cable.z;
     view->cable_tension_N = s->tension_N;
-    memcpy(view->zone_force_N, wire->hook.zone_force_N, sizeof view->zone_force_N);
+    for (int k = 0; k < m->wire_count; ++k)
+        for (int zone = 0; zone < BT_ZONE_COUNT; ++zone)
+            view->zone_force_N[zone] += s->wire[k].hook.zone_force_N[zone];
 }
 
 void bt_landing_observe(const bt_landing_model* m, bt_landing_state* s, bool last,

@@ -19,6 +19,7 @@ static void close_bounce(const bt_hops* hops, bt_landing_result* result, bool co
 void bt_hops_see(bt_hops* hops, bt_landing_result* result, double shoe_x_m, double height_m,
                  double force_N, bool on_wire) {
     result->hook_deck_force_peak_N = fmax(result->hook_deck_force_peak_N, force_N);
+    hops->touched |= force_N > 0;
     if (on_wire)
         return;
     hops->last_x_m = shoe_x_m;
@@ -28,7 +29,6 @@ void bt_hops_see(bt_hops* hops, bt_landing_result* result, double shoe_x_m, doub
             close_bounce(hops, result, true);
         if (result->bounce_count > before)
             hops->impact_peak_N = 0;
-        hops->touched = true;
         hops->airborne = false;
         hops->leave_x_m = shoe_x_m;
         hops->top_m = 0;
@@ -40,8 +40,15 @@ void bt_hops_see(bt_hops* hops, bt_landing_result* result, double shoe_x_m, doub
 }
 
 void bt_meeting_start(bt_meeting* meeting) {
-    *meeting =
-        (bt_meeting){.margin_m = NAN, .last_gap_m = NAN, .first_contact_s = NAN, .catch_s = NAN};
+    *meeting = (bt_meeting){
+        .met_s = NAN, .margin_m = NAN, .last_gap_m = NAN, .first_contact_s = NAN, .catch_s = NAN};
+}
+
+void bt_meeting_crossed_before(bt_meeting* meeting, double time_s, double rise_m, bool beside) {
+    meeting->met = meeting->passed = meeting->clear_of_deck_when_met = true;
+    meeting->met_s = time_s;
+    meeting->beside = beside;
+    meeting->margin_m = beside ? NAN : rise_m;
 }
 
 /// Height of the cable above the lip where the lip will pass it: carried on along a straight line
@@ -65,6 +72,7 @@ void bt_meeting_see(bt_meeting* meeting, const bt_hook_contact* hook, double tim
     const double gap = hook->cable_m[0] - hook->lip_m[0], rise = hook->cable_m[2] - hook->lip_m[2];
     if (!meeting->met && (point || gap <= 0)) {
         meeting->met = true;
+        meeting->met_s = time_s;
         meeting->beside = hook->beside;
         meeting->margin_m = hook->beside ? NAN : rise_at_passing(meeting, gap, rise);
         meeting->clear_of_deck_when_met = !touched_deck;
@@ -97,15 +105,44 @@ static bt_mode mode_of(const bt_meeting* meeting, bool stopped) {
     return meeting->clear_of_deck_when_met ? BT_MODE_PASSED_OVER : BT_MODE_BOUNCED_OVER;
 }
 
+static bool decides_over(const bt_meeting* a, const bt_meeting* b) {
+    if (bt_meeting_caught(a) || bt_meeting_caught(b))
+        return !bt_meeting_caught(b) || a->catch_s < b->catch_s; // false of a NAN
+    return a->met ? !b->met || a->wire >= b->wire : !b->met && a->wire < b->wire;
+}
+
 static const bt_meeting* deciding(const bt_meeting* const* meetings, int count) {
-    const bt_meeting* last = meetings[0];
+    const bt_meeting* best = meetings[0];
+    for (int k = 1; k < count; ++k)
+        if (decides_over(meetings[k], best))
+            best = meetings[k];
+    return best;
+}
+
+static bool is_contact(const bt_meeting* meeting) {
+    return meeting->met || !isnan(meeting->first_contact_s);
+}
+
+/// One row per wire that was met, in the order of the deck.
+static void list_contacts(const bt_meeting* const* meetings, int count, bool stopped,
+                          bt_landing_result* result) {
+    result->contact_count = 0;
     for (int k = 0; k < count; ++k) {
-        if (bt_meeting_caught(meetings[k]))
-            return meetings[k];
-        if (meetings[k]->met)
-            last = meetings[k];
+        const bt_meeting* m = meetings[k];
+        if (!is_contact(m))
+            continue;
+        int at = result->contact_count++;
+        for (; at > 0 && result->contacts[at - 1].wire > m->wire; --at)
+            result->contacts[at] = result->contacts[at - 1];
+        const bt_mode mode = mode_of(m, stopped && !m->passed);
+        result->contacts[at] =
+            (bt_contact){.wire = m->wire,
+                         .mode = mode,
+                         .margin_m = mode == BT_MODE_STOPPED ? NAN : m->margin_m,
+                         .time_s = isnan(m->first_contact_s) ? m->met_s : m->first_contact_s,
+                         .throat_force_peak_N = m->throat_force_peak_N,
+                         .tension_max_N = m->tension_max_N};
     }
-    return last;
 }
 
 void bt_outcome_gather(const bt_meeting* const* meetings, int count, bt_landing_result* result) {
@@ -125,7 +162,9 @@ void bt_outcome_finish(const bt_hops* hops, const bt_meeting* const* meetings, i
         close_bounce(hops, result, false);
     const bt_meeting* meeting = deciding(meetings, count);
     bt_outcome_gather(meetings, count, result);
+    list_contacts(meetings, count, stopped, result);
     result->outcome = bt_meeting_caught(meeting) ? BT_ENGAGED : BT_MISSED;
+    result->wire = bt_meeting_caught(meeting) ? meeting->wire : 0;
     result->mode = mode_of(meeting, stopped);
     if (result->mode == BT_MODE_STOPPED)
         result->margin_m = NAN;

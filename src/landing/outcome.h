@@ -25,8 +25,11 @@ void bt_hops_see(bt_hops* hops, bt_landing_result* result, double shoe_x_m, doub
 
 /// The meeting of the hook and one wire.
 typedef struct bt_meeting {
-    bool met;    ///< the lip has reached the cable
-    bool beside; ///< where it did there is no cable
+    int wire;     ///< its number, from 1
+    bool passed;  ///< the hook has left the cable behind
+    bool met;     ///< the lip has reached the cable
+    bool beside;  ///< where it did there is no cable
+    double met_s; ///< when; NAN until then
     double margin_m;
     double last_gap_m, last_rise_m; ///< cable ahead of and above the lip, at the latest step
     bool clear_of_deck_when_met;    ///< no deck contact before the meeting
@@ -39,6 +42,10 @@ typedef struct bt_meeting {
 } bt_meeting;
 
 void bt_meeting_start(bt_meeting* meeting);
+
+/// The hook crossed the wire at time_s, high above it, before the run began; rise_m: the cable's
+/// height above the lip, negative.
+void bt_meeting_crossed_before(bt_meeting* meeting, double time_s, double rise_m, bool beside);
 
 /// After a cable step: normal forces on the zones, and lip and cable centres in the hook's plane.
 /// The cable's height above the lip when the lip passes under or over its centre is the margin: a
@@ -53,7 +60,7 @@ void bt_meeting_see(bt_meeting* meeting, const bt_hook_contact* hook, double tim
 bool bt_meeting_caught(const bt_meeting* meeting);
 
 /// What is known of the landing from its meetings with `count` wires so far: forces, times, margin.
-/// The wire that was caught speaks for the landing, else the last one met, else the first.
+/// The wire that was caught first speaks for the landing, else the last one met, else the first.
 void bt_outcome_gather(const bt_meeting* const* meetings, int count, bt_landing_result* result);
 
 /// Closes the books: outcome, mode, margin, the bounce that was still in the air. `stopped`: the

@@ -6,6 +6,7 @@
 #include "landing/shank.h"
 #include "landing/ship.h"
 #include "landing/stable_step.h"
+#include "landing/wires.h"
 
 #include <stdio.h>
 
@@ -74,6 +75,10 @@ BT_DEFINE_GROUP(sway, BT_SWAY_FIELDS, ROW, NULL, "pitch or roll of the ship")
 
 #define ROW(kind, name, ...) BT_ROW_##kind(bt_motion_params, name, __VA_ARGS__)
 BT_DEFINE_GROUP(motion, BT_MOTION_FIELDS, ROW, NULL, "how the ship moves during the landing")
+#undef ROW
+
+#define ROW(kind, name, ...) BT_ROW_##kind(bt_wires_params, name, __VA_ARGS__)
+BT_DEFINE_GROUP(wires, BT_WIRES_FIELDS, ROW, NULL, "the wires of the deck")
 #undef ROW
 
 #define ROW(kind, name, ...) BT_ROW_##kind(bt_deck_params, name, __VA_ARGS__)
@@ -146,6 +151,7 @@ static void check_model(const void* params, const char* path, bt_diag* diag) {
         bt_lift_check(&model->landing, path, diag);
     check_rolling(&model->landing, path, diag);
     bt_ship_check(model, path, diag);
+    bt_wires_check(model, path, diag);
 
     const bt_gear_params* gear = &model->aircraft.main_gear;
     const double track_m = 2 * gear->half_track_m + gear->tyre.width_m * (double)gear->tyre.tyres;

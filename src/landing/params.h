@@ -143,10 +143,26 @@ BT_DECLARE_GROUP(sway, BT_SWAY_FIELDS)
     F(REAL, centre_below, m, OPTIONAL, 0, 0, 60, "", "of the deck: likewise")
 BT_DECLARE_GROUP(motion, BT_MOTION_FIELDS)
 
+enum { BT_WIRE_MAX = 8 }; ///< of a deck
+
+#define BT_WIRES_FIELDS(F)                                                                         \
+    F(COUNT, number, _, OPTIONAL, 1, 1, BT_WIRE_MAX, "",                                           \
+      "wires of the deck, all as deck.cable says; wire 1 is the first that a landing meets")       \
+    F(REAL, spacing, m, OPTIONAL, 12, 0.1, 100, "", "from each wire to the next")                  \
+    F(LIST, positions, m, OPTIONAL, 0, -300, 300, "",                                              \
+      "instead of both: x of every wire from any origin, forward positive, in order")              \
+    F(LIST, pretensions, N, OPTIONAL, 0, 1, 1e6, "",                                               \
+      "of every wire, instead of deck.cable.pretension")                                           \
+    F(LIST, support_heights, m, OPTIONAL, 0, 0, 1, "",                                             \
+      "of every wire, instead of deck.cable.supports.height")
+BT_DECLARE_GROUP(wires, BT_WIRES_FIELDS)
+
 #define BT_DECK_FIELDS(F)                                                                          \
     F(REAL, gravity, mps2, OPTIONAL, 9.80665, 0, 100, "", "acceleration of gravity")               \
     F(GROUP, motion, motion, OPTIONAL, 0, 0, 0, "", "how the ship moves during the landing")       \
-    F(GROUP, cable, cable, REQUIRED, 0, 0, 0, "Eqs. 11-17", "the arresting cable and what holds it")
+    F(GROUP, cable, cable, REQUIRED, 0, 0, 0, "Eqs. 11-17",                                        \
+      "the arresting cable and what holds it")                                                     \
+    F(GROUP, wires, wires, OPTIONAL, 0, 0, 0, "", "how many such wires there are, and where")
 BT_DECLARE_GROUP(deck, BT_DECK_FIELDS)
 
 /// Every run ends when the lip is this far past where the cable lay, m: a cable may ride on the arm
@@ -213,6 +229,8 @@ BT_DECLARE_GROUP(lift, BT_LIFT_FIELDS)
       "contact; negative when that part is past the cable by then")                                \
     F(CHOICE, distance_from, bt_distance_from_names, OPTIONAL, 0, 0, 0, "Sec. 5.3",                \
       "the part D is measured from")                                                               \
+    F(COUNT, distance_to, _, OPTIONAL, 1, 1, BT_WIRE_MAX, "",                                      \
+      "the wire D is measured to, by its number")                                                  \
     F(GROUP, lift, lift, OPTIONAL, 0, 0, 0, "", "lift after touchdown")                            \
     F(GROUP, solver, solver, OPTIONAL, 0, 0, 0, "", "steps and limits of the computation")
 BT_DECLARE_GROUP(landing, BT_LANDING_FIELDS)

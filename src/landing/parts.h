@@ -7,20 +7,22 @@
 #include "landing/stance.h"
 #include "landing/wire.h"
 
-enum { BT_WIRE_MAX = 1 };
+_Static_assert((int)BT_CONTACT_MAX == (int)BT_WIRE_MAX,
+               "a result has room for a meeting with every wire");
 
 struct bt_landing_model {
     bt_model_params params; ///< what the parts, where there are any, were built from; of the
                             ///< landing the velocities as the deck sees them
     bool has_airframe, has_cable;
     bt_kernel_level kernel; ///< of the cables
-    uint64_t built; ///< changes with every rebuilding of a part: states before it do not fit
-    bt_arena arena;
-    size_t airframe_mark; ///< of the arena: what follows belongs to the wires
+    uint64_t built;      ///< changes with every rebuilding of a part: states before it do not fit
+    bt_arena arena;      ///< of the airframe
+    bt_arena wire_arena; ///< of the cables and their resting shapes
     bt_airframe airframe;
-    bt_state hanging; ///< as assembled
-    bt_cable_model cable;
-    bt_cable_state resting;
+    bt_state hanging;                  ///< as assembled
+    bt_cable_model cable[BT_WIRE_MAX]; ///< those that differ
+    bt_cable_state resting[BT_WIRE_MAX];
+    bool keeps_wires; ///< computes every wire to the end: to show that dropping them loses nothing
     int wire_count;
     bt_wire wire[BT_WIRE_MAX];
     double segment_m[BT_CABLE_SEGMENTS_MAX];
@@ -67,6 +69,9 @@ static inline double bt_landing_output(const bt_landing_model* model, const bt_l
 /// Sets the frames of airframe and wires where the deck moves: at the end of a step of step_s that
 /// begins now, and now.
 void bt_landing_move_deck(const bt_landing_model* model, bt_landing_state* state, double step_s);
+
+/// Takes over where wheels and hook are, and their clearances from the wires.
+void bt_landing_follow_parts(const bt_landing_model* model, bt_landing_state* state);
 
 /// The landing has failed in an element, by a quantity, at a time.
 void bt_landing_fail(bt_landing_state* state, const char* element, const char* quantity,

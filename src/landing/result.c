@@ -137,9 +137,28 @@ void bt_remarks_parse(const char* text, bt_remarks* remarks) {
     {BT_RESULT_INT, "bounce_count", "bounce_count", "", "", text, AT(bounce_count), 0},            \
         BT_BOUNCE_FIELDS(FIRST) BT_BOUNCE_FIELDS(SECOND)
 
+#define COLUMN_CONTACTS(name, unit, text) /* a table of their own */
+
 #define COLUMN(KIND, name, unit, label, shown, text) COLUMN_##KIND(name, unit, text)
 const bt_result_column bt_result_columns[] = {BT_LANDING_RESULT_FIELDS(COLUMN)};
 const int bt_result_column_count = sizeof bt_result_columns / sizeof bt_result_columns[0];
+
+#define CONTACT_REAL(name, unit, text)                                                             \
+    {BT_RESULT_REAL,                                                                               \
+     #name "_" #unit,                                                                              \
+     #name,                                                                                        \
+     #unit,                                                                                        \
+     "",                                                                                           \
+     text,                                                                                         \
+     offsetof(bt_contact, name##_##unit),                                                          \
+     0},
+#define CONTACT_COUNT(name, unit, text)                                                            \
+    {BT_RESULT_COUNT, #name, #name, "", "", text, offsetof(bt_contact, name), 0},
+#define CONTACT_MODE(name, unit, text)                                                             \
+    {BT_RESULT_MODE, #name, #name, "", "", text, offsetof(bt_contact, name), 0},
+#define CONTACT(KIND, name, unit, label, shown, text) CONTACT_##KIND(name, unit, text)
+const bt_result_column bt_contact_columns[] = {BT_CONTACT_FIELDS(CONTACT)};
+const int bt_contact_column_count = sizeof bt_contact_columns / sizeof bt_contact_columns[0];
 
 double bt_result_real(const bt_result_column* column, const bt_landing_result* result) {
     if (column->bounce > result->bounce_count ||

@@ -7,6 +7,7 @@
 ///           REAL    double name_unit
 ///           LEGS    double name_unit[BT_LEG_COUNT]    columns name_nose_unit, _left_, _right_
 ///           BOUNCES int bounce_count and bt_bounce[]  columns bounce_count, bounce_height_m, ...
+///           CONTACTS int contact_count and bt_contact[]  no columns: a table of their own
 ///           REMARKS bt_remarks                        one column of text
 ///           FAILURE failed_element, failed_quantity, failed_time_s
 ///           HASH    uint64_t
@@ -91,6 +92,7 @@ void bt_remarks_parse(const char* text, bt_remarks* remarks);
 
 enum {
     BT_BOUNCE_MAX = 16,
+    BT_CONTACT_MAX = 8, ///< one per wire of a deck
     BT_FAILED_TEXT_SIZE = 128,
 };
 
@@ -101,9 +103,19 @@ enum {
     R(REAL, impact_force, N, "", kN, "peak deck force of the impact that began the bounce") \
     R(FLAG, complete, _, "", _, "the hook came down on the deck again; false: the bounce was cut short")
 
+#define BT_CONTACT_FIELDS(R) \
+    R(COUNT, wire, _, "", _, "number of the wire, from 1 in the order in which they are met") \
+    R(MODE, mode, _, "", _, "how it was caught or missed") \
+    R(REAL, margin, m, "", mm, "cable centre above lip centre when they meet: positive catches; none beyond the end of the cable") \
+    R(REAL, time, s, "", s, "first contact of hook and cable, or when the hook crossed it without one") \
+    R(REAL, throat_force_peak, N, "", kN, "peak force of the cable in the throat") \
+    R(REAL, tension_max, N, "", kN, "largest tension anywhere along the cable; 0 when nothing met it")
+
 #define BT_LANDING_RESULT_FIELDS(R) \
     R(OUTCOME, outcome, _, "", _, "engaged: the throat caught the cable; missed; failed: no answer") \
     R(MODE, mode, _, "", _, "how it was caught or missed") \
+    R(COUNT, wire, _, "", _, "number of the wire that was caught, from 1 in the order in which they are met; 0 for none") \
+    R(CONTACTS, contacts, _, "", _, "the hook's meetings with the wires, in their order; none in a failed run") \
     R(FLAG, retained, _, "cable held", _, "the throat still held the cable when the run ended") \
     R(REAL, margin, m, "margin", mm, "cable centre above lip centre when they meet: positive catches; none in a failed run") \
     R(REAL, throat_force_peak, N, "throat force", kN, "peak force of the cable in the throat") \
@@ -132,6 +144,9 @@ enum {
 #define BT_RESULT_MEMBER_BOUNCES(name, unit)                                                       \
     int bounce_count;                                                                              \
     bt_bounce name[BT_BOUNCE_MAX];
+#define BT_RESULT_MEMBER_CONTACTS(name, unit)                                                      \
+    int contact_count;                                                                             \
+    bt_contact name[BT_CONTACT_MAX];
 #define BT_RESULT_MEMBER_REMARKS(name, unit) bt_remarks name;
 #define BT_RESULT_MEMBER_FAILURE(name, unit)                                                       \
     char name##_element[BT_FAILED_TEXT_SIZE], name##_quantity[BT_FAILED_TEXT_SIZE];                \
@@ -142,6 +157,11 @@ enum {
 typedef struct bt_bounce {
     BT_BOUNCE_FIELDS(BT_RESULT_MEMBER)
 } bt_bounce;
+
+/// The hook's meeting with one wire.
+typedef struct bt_contact {
+    BT_CONTACT_FIELDS(BT_RESULT_MEMBER)
+} bt_contact;
 
 typedef struct bt_landing_result {
     BT_LANDING_RESULT_FIELDS(BT_RESULT_MEMBER)
@@ -175,6 +195,10 @@ typedef struct bt_result_column {
 
 extern const bt_result_column bt_result_columns[];
 extern const int bt_result_column_count;
+
+/// Of a meeting, with offsets in bt_contact: the columns of the ledger's table `contacts`.
+extern const bt_result_column bt_contact_columns[];
+extern const int bt_contact_column_count;
 
 /// A REAL as a metric sees it: of a bounce that never was, or that was cut short, NAN.
 double bt_result_real(const bt_result_column* column, const bt_landing_result* result);

@@ -9,48 +9,94 @@
 #include <string.h>
 
 /// When, on the glide, a part whose lowest point is `lowest_m` at time 0 and that reaches
-/// `reach_m` fore and aft comes up to a wire at x = 0; 0 when it does so later, or leaves it again
-/// higher than `top_m`.
-static double comes_to_cable_s(const bt_landing_params* p, const double lowest_m[3], double reach_m,
-                               double top_m) {
-    const double enters_s = (-reach_m - lowest_m[0]) / p->horizontal_speed_mps;
-    const double leaves_s = (reach_m - lowest_m[0]) / p->horizontal_speed_mps;
+/// `reach_m` fore and aft comes up to a wire at `wire_m`; 0 when it does so later, or leaves it
+/// again higher than `top_m`.
+static double comes_to_cable_s(const bt_landing_params* p, const double lowest_m[3], double wire_m,
+                               double reach_m, double top_m) {
+    const double ahead_m = wire_m - lowest_m[0];
+    const double enters_s = (ahead_m - reach_m) / p->horizontal_speed_mps;
+    const double leaves_s = (ahead_m + reach_m) / p->horizontal_speed_mps;
     const double leaves_at_m = lowest_m[2] - fmin(leaves_s, 0) * p->sink_speed_mps;
     return enters_s < 0 && leaves_at_m < top_m ? enters_s : 0;
 }
 
+/// The wire that D is measured to.
+static const bt_wire* target_of(const bt_landing_model* m) {
+    const bt_wire* wire = m->wire;
+    while (wire->number != m->params.landing.distance_to)
+        ++wire;
+    return wire;
+}
+
 /// Where the glide meets the deck at time 0: the shift that puts the lowest part on the deck and
 /// the named part at its distance before the wire.
-static void touchdown_shift(const bt_landing_params* p, const bt_glide* glide, double shift[3]) {
+static void touchdown_shift(const bt_landing_model* m, const bt_glide* glide, double shift[3]) {
+    const bt_landing_params* p = &m->params.landing;
     double lowest = glide->hook_m[2];
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
         lowest = fmin(lowest, glide->tyre_m[leg][2]);
     const double wheels_x = 0.5 * (glide->tyre_m[BT_LEG_LEFT][0] + glide->tyre_m[BT_LEG_RIGHT][0]);
     const double from = p->distance_from == BT_DISTANCE_FROM_HOOK ? glide->hook_m[0] : wheels_x;
-    shift[0] = -p->distance_m - from;
+    shift[0] = target_of(m)->position_m - p->distance_m - from;
     shift[1] = 0;
     shift[2] = -lowest;
 }
 
-/// When the run begins: before the first touch, before any tyre comes up to the cable, and before
-/// the hook crosses it. `glide` is moved to where it is at time 0.
-static double begins_s(const bt_landing_model* m, bt_glide* glide, const double shift[3]) {
-    static const double before_touch_s = 1e-3, hook_reach_m = 0.5, tyre_margin_m = 0.05,
-                        above_cable_m = 0.1;
+/// When the run must have begun for what comes up to one wire. The hook's way over the wire that D
+/// is measured to is seen from however high: it gives the margin; over the others, and of the
+/// tyres, where it can touch them. `glide` is at time 0.
+static double begins_before_wire_s(const bt_landing_model* m, const bt_glide* glide,
+                                   const bt_wire* wire) {
+    static const double hook_reach_m = 0.5, tyre_margin_m = 0.05, above_cable_m = 0.1;
     const bt_landing_params* p = &m->params.landing;
     const bt_cable_params* cable = &m->params.deck.cable;
+    const double height_m = wire->cable->def.support.height_m;
     const double top_m =
-        fmax(cable->supports.height_m, cable->sheaves.height_m) + cable->diameter_m + above_cable_m;
-    double begin_s = -before_touch_s;
-    bt_add_scaled(glide->hook_m, 1, shift);
-    // the hook's way over the cable is seen from however high: it gives the margin
-    begin_s = fmin(begin_s, comes_to_cable_s(p, glide->hook_m, hook_reach_m, INFINITY));
+        fmax(height_m, cable->sheaves.height_m) + cable->diameter_m + above_cable_m;
+    double begin_s = comes_to_cable_s(p, glide->hook_m, wire->position_m, hook_reach_m,
+                                      wire == target_of(m) ? INFINITY : top_m);
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
-        bt_add_scaled(glide->tyre_m[leg], 1, shift);
         const double reach_m = m->airframe.tyre[leg].radius + tyre_margin_m;
-        begin_s = fmin(begin_s, comes_to_cable_s(p, glide->tyre_m[leg], reach_m, top_m));
+        begin_s = fmin(begin_s,
+                       comes_to_cable_s(p, glide->tyre_m[leg], wire->position_m, reach_m, top_m));
     }
     return begin_s;
+}
+
+/// When the run begins: before the first touch, and before anything comes up to a wire. `glide` is
+/// moved to where it is at time 0.
+static double begins_s(const bt_landing_model* m, bt_glide* glide, const double shift[3]) {
+    static const double before_touch_s = 1e-3;
+    double begin_s = -before_touch_s;
+    bt_add_scaled(glide->hook_m, 1, shift);
+    for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
+        bt_add_scaled(glide->tyre_m[leg], 1, shift);
+    for (int k = 0; k < m->wire_count; ++k)
+        begin_s = fmin(begin_s, begins_before_wire_s(m, glide, &m->wire[k]));
+    return begin_s;
+}
+
+/// From the wire that D is measured to to the last one.
+static double beyond_m(const bt_landing_model* m) {
+    double last_m = 0;
+    for (int k = 0; k < m->wire_count; ++k)
+        last_m = fmax(last_m, m->wire[k].position_m);
+    return last_m - target_of(m)->position_m;
+}
+
+/// What the hook crossed, high above, before the run began; an aircraft that rolls in has not met
+/// the wires behind it.
+static void cross_wires_before(const bt_landing_model* m, bt_landing_state* s) {
+    const bt_landing_params* p = &m->params.landing;
+    bt_landing_follow_parts(m, s);
+    for (int k = 0; k < m->wire_count; ++k)
+        if (&m->wire[k] == target_of(m))
+            continue;
+        else if (p->start != BT_START_GLIDE)
+            bt_wire_leave_behind(&s->wire[k]);
+        else
+            bt_wire_crossed_before(&s->wire[k], s->airframe.time_s, p->horizontal_speed_mps,
+                                   p->sink_speed_mps);
 }
 
 /// Takes the aircraft, which touches the deck at time 0 after a shift, to an earlier time: it has
@@ -89,21 +135,21 @@ static void go_back(const bt_landing_model* m, const double shift[3], double tim
 static bool sleeps(const bt_landing_model* m, double begins_s) {
     static const double tolerance_m = 1e-4;
     const bt_landing_params* p = &m->params.landing;
-    const double lasts_s = (fabs(p->distance_m) + 10) / p->horizontal_speed_mps;
+    const double lasts_s = (fabs(p->distance_m) + 10 + beyond_m(m)) / p->horizontal_speed_mps;
     return !m->moves || bt_ship_sleeping_error(&m->params.deck.motion, &m->params.deck.cable,
                                                begins_s, lasts_s) <= tolerance_m;
 }
 
-/// The aircraft on its glide, the named part `distance` before the wire when the first part touches
-/// the deck at time 0. Going back along the glide is exact, since nothing touches anything there
-/// and gravity is what lift carries (bt_landing_step), so that distance and sinking speed are those
-/// asked for at that touch. Returns the time at which the run begins.
+/// The aircraft on its glide, the named part `distance` before the named wire when the first part
+/// touches the deck at time 0. Going back along the glide is exact, since nothing touches anything
+/// there and gravity is what lift carries (bt_landing_step), so that distance and sinking speed are
+/// those asked for at that touch. Returns the time at which the run begins.
 static double glide_in(const bt_landing_model* m, bt_landing_state* s) {
     const bt_landing_params* p = &m->params.landing;
     bt_glide glide;
     double shift[3];
     bt_airframe_place(&m->airframe, p, &m->hanging, &s->airframe, &glide);
-    touchdown_shift(p, &glide, shift);
+    touchdown_shift(m, &glide, shift);
     const double begin_s = begins_s(m, &glide, shift);
     const double back[3] = {shift[0] + begin_s * p->horizontal_speed_mps,
                             shift[1] + begin_s * p->drift_mps,
@@ -122,7 +168,7 @@ static void roll_in(const bt_landing_model* m, bt_landing_state* s) {
     double shift[3];
     bt_state_copy(m->airframe.system, &s->airframe, &m->hanging);
     bt_stance_place(&m->airframe, p, &m->hanging, &m->stance, &s->airframe, &glide);
-    touchdown_shift(p, &glide, shift);
+    touchdown_shift(m, &glide, shift);
     shift[2] = 0;
     bt_airframe_move(&m->airframe, shift, &s->airframe);
 }
@@ -159,10 +205,12 @@ bool bt_landing_start(const bt_landing_model* m, bt_landing_state* s) {
     }
     if (m->moves)
         bt_landing_move_deck(m, s, 0);
-    s->end_by_s = time_allowed * (fabs(p->distance_m) + 10) / p->horizontal_speed_mps;
+    s->end_by_s = time_allowed * (fabs(p->distance_m) + 10 + beyond_m(m)) / p->horizontal_speed_mps;
     bt_failure failure = {0};
     if (bt_system_project(m->airframe.system, &s->airframe, &failure) != BT_OK ||
         bt_system_evaluate(m->airframe.system, &s->airframe, &failure) != BT_OK)
         bt_landing_fail(s, failure.where, failure.quantity, failure.time_s);
+    else
+        cross_wires_before(m, s);
     return !bt_phase_is_over(s->phase);
 }

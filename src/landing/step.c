@@ -37,7 +37,7 @@ static int body_of(int part) {
     return part == BT_PART_HOOK ? BT_BODY_HOOK : BT_BODY_NOSE_WHEEL + part;
 }
 
-static void follow_parts(const bt_landing_model* m, bt_landing_state* s) {
+void bt_landing_follow_parts(const bt_landing_model* m, bt_landing_state* s) {
     for (int k = 0; k < BT_PART_COUNT; ++k)
         follow_body(&s->airframe, body_of(k), &s->part[k]);
     for (int k = 0; k < m->wire_count; ++k)
@@ -163,8 +163,10 @@ static void record(const bt_landing_model* m, bt_landing_state* s) {
     bt_hops_see(&s->hops, result, bt_landing_output(m, s, f->shoe, BT_SHOE_X),
                 bt_landing_output(m, s, f->shoe, BT_SHOE_HEIGHT),
                 bt_landing_output(m, s, f->shoe, BT_SHOE_FORCE), on_wire(m, s));
-    for (int k = 0; k < m->wire_count; ++k)
+    for (int k = 0; k < m->wire_count; ++k) {
         bt_wire_record(&m->wire[k], &s->wire[k], s->airframe.time_s, s->hops.touched);
+        bt_wire_pass(&s->wire[k], m->params.landing.solver.past_cable_m);
+    }
 }
 
 /// Whether the laws of the airframe's elements hold: at their limit a remark, beyond it a failure.
@@ -196,17 +198,16 @@ static bool laws_hold(const bt_landing_model* m, bt_landing_state* s) {
 /// Caught and held a little, past the last wire, out of its reach, or at rest before it.
 static bt_landing_phase phase_of(const bt_landing_model* m, const bt_landing_state* s) {
     static const double stopped_share = 0.02; // of the landing's speed
-    const bt_solver_params* solver = &m->params.landing.solver;
-    bool past_all = true;
+    bool past_all = true, caught = false;
     for (int k = 0; k < m->wire_count; ++k) {
-        const bt_wire_state* wire = &s->wire[k];
-        if (bt_meeting_caught(&wire->meeting))
-            return s->airframe.time_s >= wire->meeting.catch_s + solver->after_catch_s
-                       ? BT_PHASE_CAUGHT
-                       : s->phase;
-        past_all &= bt_wire_passed_m(wire) >= solver->past_cable_m ||
-                    wire->hook.lip_m[0] >= BT_PAST_CABLE_MOST_M; // riding on the arm
+        const bt_meeting* meeting = &s->wire[k].meeting;
+        caught |= bt_meeting_caught(meeting);
+        past_all &= meeting->passed;
+        if (s->airframe.time_s >= meeting->catch_s + m->params.landing.solver.after_catch_s)
+            return BT_PHASE_CAUGHT;
     }
+    if (caught)
+        return s->phase;
     if (past_all)
         return BT_PHASE_PASSED;
     const double speed_mps = s->airframe.v[6 * BT_BODY_FUSELAGE];
@@ -216,9 +217,17 @@ static bt_landing_phase phase_of(const bt_landing_model* m, const bt_landing_sta
 
 static bool cables_are_finite(const bt_landing_model* m, const bt_landing_state* s) {
     for (int k = 0; k < m->wire_count; ++k)
-        if (s->wire[k].awake && !bt_cable_is_finite(m->wire[k].cable, &s->wire[k].cable))
+        if (s->wire[k].awake && !s->wire[k].left &&
+            !bt_cable_is_finite(m->wire[k].cable, &s->wire[k].cable))
             return false;
     return true;
+}
+
+/// The last wire is never left: with it the landing is over.
+static void leave_wires(const bt_landing_model* m, bt_landing_state* s) {
+    if (!bt_phase_is_over(s->phase) && !m->keeps_wires)
+        for (int k = 0; k < m->wire_count; ++k)
+            bt_wire_leave(&m->wire[k], &s->wire[k], s->part);
 }
 
 bool bt_landing_step(const bt_landing_model* m, bt_landing_state* s) {
@@ -230,7 +239,7 @@ bool bt_landing_step(const bt_landing_model* m, bt_landing_state* s) {
         return false;
     }
     // 1. where wheels and hook are, how far from the wires, and the step that all parts bear
-    follow_parts(m, s);
+    bt_landing_follow_parts(m, s);
     const double step_s = choose_step(m, s);
     if (m->moves)
         bt_landing_move_deck(m, s, step_s);
@@ -249,6 +258,7 @@ bool bt_landing_step(const bt_landing_model* m, bt_landing_state* s) {
         // 4. bounces, loads, and the limit state of every wire [Peng2023 Eq. 18]
         record(m, s);
         s->phase = phase_of(m, s);
+        leave_wires(m, s);
     }
     return !bt_phase_is_over(s->phase);
 }

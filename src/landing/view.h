@@ -68,6 +68,7 @@ typedef struct bt_landing_view {
                                 ///< the world, N m in the body
     double friction_most_J;     ///< the largest of one cable step, so far; -INFINITY before any
 
+    // of wire 1, which rests at x = 0 (forces of the cable are those of all wires)
     bool cable_awake; ///< false while it still lies in its equilibrium
     int cable_count;
     const double *cable_x, *cable_y, *cable_z; ///< [cable_count] centres of the segments

@@ -28,7 +28,8 @@ void bt_wire_contacts(const bt_airframe* airframe, const bt_model_params* params
 void bt_wire_start(const bt_wire* wire, bt_wire_state* state) {
     bt_cable_state_copy(wire->cable, &state->cable, wire->resting);
     bt_meeting_start(&state->meeting);
-    state->awake = state->loaded = false;
+    state->meeting.wire = wire->number;
+    state->awake = state->loaded = state->left = false;
 }
 
 /// The part in the wire's own frame, without impulses.
@@ -43,6 +44,8 @@ static bt_moving_body seen_from_wire(const bt_wire* wire, const bt_moving_body* 
 
 void bt_wire_follow(const bt_wire* wire, bt_wire_state* s,
                     const bt_moving_body part[BT_PART_COUNT]) {
+    if (s->left)
+        return;
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
         const bt_moving_body wheel = seen_from_wire(wire, &part[leg]);
         s->clearance_m[leg] = bt_wheel_clearance(&s->wheel[leg], wire->cable, &s->cable, &wheel);
@@ -102,7 +105,7 @@ int bt_wire_step(const bt_wire* wire, bt_wire_state* s, bt_moving_body part[BT_P
         any |= !s->clearer[k];
     }
     s->awake |= any;
-    if (!s->awake)
+    if (!s->awake || s->left)
         return 0;
 
     bt_moving_body seen[BT_PART_COUNT];
@@ -129,6 +132,8 @@ int bt_wire_step(const bt_wire* wire, bt_wire_state* s, bt_moving_body part[BT_P
 }
 
 void bt_wire_record(const bt_wire* wire, bt_wire_state* s, double time_s, bool touched_deck) {
+    if (s->left)
+        return;
     if (s->clearer[BT_PART_HOOK])
         bt_meeting_see(&s->meeting, &s->hook, time_s, touched_deck);
     if (s->awake)
@@ -136,6 +141,51 @@ void bt_wire_record(const bt_wire* wire, bt_wire_state* s, double time_s, bool t
             fmax(s->meeting.tension_max_N, bt_cable_tension_max(wire->cable, &s->cable));
 }
 
-double bt_wire_passed_m(const bt_wire_state* state) {
-    return state->hook.lip_m[0] - state->hook.cable_m[0];
+void bt_wire_pass(bt_wire_state* s, double past_m) {
+    const double lip_m = s->hook.lip_m[0];
+    s->meeting.passed |= lip_m - s->hook.cable_m[0] >= past_m || lip_m >= BT_PAST_CABLE_MOST_M;
+}
+
+void bt_wire_crossed_before(bt_wire_state* s, double time_s, double speed_mps,
+                            double sink_speed_mps) {
+    const double since_s = (s->hook.lip_m[0] - s->hook.cable_m[0]) / speed_mps;
+    const double lip_m = s->hook.lip_m[2] + since_s * sink_speed_mps;
+    if (since_s > 0)
+        bt_meeting_crossed_before(&s->meeting, time_s - since_s, s->hook.cable_m[2] - lip_m,
+                                  s->hook.beside);
+}
+
+static void drop(bt_wire_state* s) {
+    s->left = true;
+    for (int k = 0; k < BT_PART_COUNT; ++k) {
+        s->clearer[k] = true;
+        s->clearance_m[k] = INFINITY;
+    }
+    memset(s->hook.zone_force_N, 0, sizeof s->hook.zone_force_N);
+}
+
+void bt_wire_leave_behind(bt_wire_state* s) {
+    if (s->hook.lip_m[0] <= s->hook.cable_m[0])
+        return;
+    s->meeting.passed = true;
+    drop(s);
+}
+
+void bt_wire_leave(const bt_wire* wire, bt_wire_state* s,
+                   const bt_moving_body part[BT_PART_COUNT]) {
+    if (s->left || !s->meeting.passed)
+        return;
+    double last_m = INFINITY, foremost_m = -INFINITY, fastest_mps = -INFINITY;
+    for (int k = 0; k < BT_PART_COUNT; ++k)
+        last_m = fmin(last_m, part[k].position_m[0] - wire->position_m);
+    if (last_m < BT_WIRE_SETTLING_M)
+        return;
+    for (int i = 0; i < wire->cable->count; ++i) {
+        foremost_m = fmax(foremost_m, s->cable.x[i]);
+        fastest_mps = fmax(fastest_mps, s->cable.vx[i]);
+    }
+    if (last_m < foremost_m + BT_WIRE_SETTLING_M ||
+        fastest_mps > 0.5 * part[BT_PART_HOOK].velocity_mps[0])
+        return;
+    drop(s);
 }

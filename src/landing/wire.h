@@ -13,6 +13,7 @@
 enum { BT_PART_HOOK = BT_LEG_COUNT, BT_PART_COUNT };
 
 typedef struct bt_wire {
+    int number;        ///< from 1, in the order in which a landing meets them
     double position_m; ///< x of the resting cable on the deck
     const bt_cable_model* cable;
     const bt_cable_state* resting; ///< static equilibrium
@@ -34,6 +35,7 @@ typedef struct bt_wire_state {
     bool clearer[BT_PART_COUNT];       ///< cannot touch the cable in the present step
     bool awake;                        ///< the cable has left its equilibrium
     bool loaded;                       ///< parts have put loads on the cable
+    bool left; ///< nothing can come back to it: it is computed no more (bt_wire_leave)
 } bt_wire_state;
 
 /// What the parts bring to the wires: tyres with the strips of the contact law, head, friction.
@@ -57,7 +59,24 @@ int bt_wire_step(const bt_wire* wire, bt_wire_state* state, bt_moving_body part[
 /// After the airframe step: the hook's passing where it is too far for contact, and the tension.
 void bt_wire_record(const bt_wire* wire, bt_wire_state* state, double time_s, bool touched_deck);
 
-/// How far the hook's lip is past the cable, m.
-double bt_wire_passed_m(const bt_wire_state* state);
+/// Notes whether the hook has left the wire behind: past_m beyond the cable, or
+/// BT_PAST_CABLE_MOST_M past where it lay (it may ride on the arm for ever).
+void bt_wire_pass(bt_wire_state* state, double past_m);
+
+/// The hook crossed the wire on the glide before the run began, which is exact as nothing touches
+/// anything there: notes by what height. For the start of a run.
+void bt_wire_crossed_before(bt_wire_state* state, double time_s, double speed_mps,
+                            double sink_speed_mps);
+
+/// A wire that lies behind the hook when the run begins is left and was not met; another stays.
+void bt_wire_leave_behind(bt_wire_state* state);
+
+/// Stops computing a wire that the aircraft has left for good: the hook has passed it, every part
+/// is BT_WIRE_SETTLING_M ahead of its foremost point, and no point of it moves forward at half the
+/// aircraft's speed. The gap then opens faster than at half that speed, and what acts on the wire
+/// from there on, its own tension, pulls it back.
+#define BT_WIRE_SETTLING_M 2
+void bt_wire_leave(const bt_wire* wire, bt_wire_state* state,
+                   const bt_moving_body part[BT_PART_COUNT]);
 
 #endif

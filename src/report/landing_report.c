@@ -21,6 +21,7 @@ static const char* hook_loads(const bt_landing_result* result) {
 #define JSON_MODE(json, from, name, unit) bt_json_string(json, #name, bt_mode_name((from)->name));
 #define JSON_LEGS(json, from, name, unit) json_legs(json, #name "_" #unit, (from)->name##_##unit);
 #define JSON_BOUNCES(json, from, name, unit) json_bounces(json, #name, from);
+#define JSON_CONTACTS(json, from, name, unit) json_contacts(json, #name, from);
 #define JSON_REMARKS(json, from, name, unit) json_remarks(json, #name, &(from)->name);
 #define JSON_FAILURE(json, from, name, unit)                                                       \
     json_failure(json, #name, (from)->name##_element, (from)->name##_quantity,                     \
@@ -42,6 +43,19 @@ static void json_bounces(bt_json* json, const char* key, const bt_landing_result
         const bt_bounce* bounce = &result->bounces[i];
         bt_json_begin_object(json, NULL);
         BT_BOUNCE_FIELDS(JSON_OF_BOUNCE)
+        bt_json_end_object(json);
+    }
+    bt_json_end_array(json);
+}
+
+#define JSON_OF_CONTACT(KIND, name, unit, label, shown, text) JSON_##KIND(json, contact, name, unit)
+
+static void json_contacts(bt_json* json, const char* key, const bt_landing_result* result) {
+    bt_json_begin_array(json, key);
+    for (int i = 0; i < result->contact_count; ++i) {
+        const bt_contact* contact = &result->contacts[i];
+        bt_json_begin_object(json, NULL);
+        BT_CONTACT_FIELDS(JSON_OF_CONTACT)
         bt_json_end_object(json);
     }
     bt_json_end_array(json);
@@ -139,6 +153,20 @@ static void text_bounces(FILE* out, const bt_landing_result* result) {
     }
 }
 
+/// On a deck with one wire the other lines say it all.
+static void text_contacts(FILE* out, const bt_landing_result* result) {
+    const bt_contact* last = result->contacts + result->contact_count - 1;
+    if (result->contact_count == 0 || last->wire == 1)
+        return;
+    for (const bt_contact* c = result->contacts; c <= last; ++c) {
+        fprintf(out, "wire %-2lld        %s: %s", (long long)c->wire, bt_mode_name(c->mode),
+                bt_mode_text(c->mode));
+        if (isfinite(c->margin_m))
+            fprintf(out, ", margin %.2f mm", 1e3 * c->margin_m);
+        fprintf(out, ", at %.4f s\n", c->time_s);
+    }
+}
+
 static void text_remarks(FILE* out, const bt_remarks* remarks) {
     for (int i = 0; i < BT_REMARK_COUNT; ++i)
         if (bt_remarks_has(remarks, (bt_remark)i))
@@ -162,6 +190,7 @@ static void text_outcome(FILE* out, const bt_landing_result* result) {
     text_legs(out, result->name##_##unit, #unit, label, #shown);
 #define TEXT_OUTCOME(name, unit, label, shown) text_outcome(out, result);
 #define TEXT_BOUNCES(name, unit, label, shown) text_bounces(out, result);
+#define TEXT_CONTACTS(name, unit, label, shown) text_contacts(out, result);
 #define TEXT_REMARKS(name, unit, label, shown) text_remarks(out, &result->name);
 #define TEXT_MODE(name, unit, label, shown)    /* said with the outcome */
 #define TEXT_COUNT(name, unit, label, shown)   /* said at the end */

@@ -4,15 +4,18 @@
 #include "landing/view.h"
 #include "report/table.h"
 
-enum { RESULTS, MODES, REMARKS, HISTORIES, TABLES };
-static const char* const keys[TABLES] = {"results", "modes", "remarks", "histories"};
+enum { RESULTS, CONTACTS, MODES, REMARKS, HISTORIES, TABLES };
+static const char* const keys[TABLES] = {"results", "contacts", "modes", "remarks", "histories"};
 
-static const char* const titles[TABLES] = {"Results", "Modes", "Remarks", "Histories"};
+static const char* const titles[TABLES] = {"Results", "Contacts", "Modes", "Remarks", "Histories"};
 
 static const char* const texts[TABLES] = {
     "Columns of the ledger (those of the second bounce excepted). Numbers with a unit are metrics "
     "of\n`calibrate`, called by their name without it. `land --json` has the three legs as one "
     "object and\nthe bounces as an array.",
+    "One row per wire that the hook met: `contacts` of `land --json`, table `contacts` of the "
+    "ledger "
+    "(with\n`run`).",
     "How the hook caught the cable or missed it.",
     "States at the edge of what the model describes: `remarks` of `land --json`, column `remarks` "
     "of the\nledger (`what element time`, in s, separated by `; `).",
@@ -45,13 +48,21 @@ static const char* unit_text(const char* token) {
     return bt_unit_text(*token ? token : "1");
 }
 
-static bt_report_table* results(void) {
+static bt_report_table* columns(const bt_result_column* all, int count) {
     bt_report_table* table = bt_report_table_create(NULL, with_unit, 3);
-    for (int i = 0; i < bt_result_column_count; ++i) {
-        const bt_result_column* c = &bt_result_columns[i];
+    for (int i = 0; i < count; ++i) {
+        const bt_result_column* c = &all[i];
         add_texts(table, (const char*[]){c->name, unit_text(c->unit), c->text}, 3);
     }
     return table;
+}
+
+static bt_report_table* results(void) {
+    return columns(bt_result_columns, bt_result_column_count);
+}
+
+static bt_report_table* contacts(void) {
+    return columns(bt_contact_columns, bt_contact_column_count);
 }
 
 static bt_report_table* modes(void) {
@@ -80,7 +91,8 @@ static bt_report_table* histories(void) {
 }
 
 static bt_report_table* make(int which) {
-    static bt_report_table* (*const makers[TABLES])(void) = {results, modes, remarks, histories};
+    static bt_report_table* (*const makers[TABLES])(void) = {results, contacts, modes, remarks,
+                                                             histories};
     return makers[which]();
 }
 

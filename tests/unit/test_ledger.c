@@ -56,6 +56,10 @@ static bt_landing_result result_of(int run, bt_outcome outcome) {
     r.margin_m = 0.001 * run + 1.0 / 3;
     r.throat_force_peak_N = 1e5 + run;
     r.time_of_contact_s = outcome == BT_MISSED ? NAN : 0.1 * run;
+    r.wire = outcome == BT_ENGAGED ? 2 : 0;
+    r.contact_count = outcome == BT_FAILED ? 0 : 2;
+    r.contacts[0] = (bt_contact){1, BT_MODE_PASSED_OVER, -0.3 - run, 0.1, 0, 0};
+    r.contacts[1] = (bt_contact){2, BT_MODE_RIDDEN_OVER, NAN, 0.2 + run, 3e4, 2e5};
     r.bounce_count = 1;
     r.bounces[0] = (bt_bounce){0.05 + run, 3.2, 3e5, true};
     r.steps = 1000 + run;
@@ -100,6 +104,14 @@ static void a_run_comes_back_to_the_bit(void** state) {
     assert_int_equal(row.result.outcome, BT_ENGAGED);
     assert_int_equal(row.result.mode, BT_MODE_RIDDEN_OVER);
     assert_true(row.result.retained);
+    assert_int_equal(row.result.wire, 2);
+    assert_int_equal(row.result.contact_count, 2);
+    assert_int_equal(row.result.contacts[0].mode, BT_MODE_PASSED_OVER);
+    assert_true(row.result.contacts[0].margin_m == want.contacts[0].margin_m);
+    assert_int_equal(row.result.contacts[1].wire, 2);
+    assert_true(isnan(row.result.contacts[1].margin_m));
+    assert_true(row.result.contacts[1].time_s == want.contacts[1].time_s);
+    assert_true(row.result.contacts[1].tension_max_N == want.contacts[1].tension_max_N);
     assert_memory_equal(&row.result.margin_m, &want.margin_m, sizeof want.margin_m);
     assert_memory_equal(&row.result.bounces[0], &want.bounces[0], sizeof want.bounces[0].height_m);
     assert_true(row.result.state_hash == want.state_hash);

@@ -76,7 +76,8 @@ static void every_row_has_one_name_a_known_unit_and_a_meaning(void** state) {
 /// A member that no row describes would be missing everywhere else.
 static void the_rows_fill_the_struct(void** state) {
     (void)state;
-    size_t bytes = (BT_BOUNCE_MAX - 2) * sizeof(bt_bounce);
+    size_t bytes =
+        (BT_BOUNCE_MAX - 2) * sizeof(bt_bounce) + sizeof(int) + BT_CONTACT_MAX * sizeof(bt_contact);
     for (int i = 0; i < bt_result_column_count; ++i)
         switch (bt_result_columns[i].kind) {
         case BT_RESULT_FLAG:
@@ -117,6 +118,9 @@ static void every_row_is_in_the_reference(void** state) {
         if (!strstr(text, row) || !strstr(text, member))
             fail_msg("%s is not in the reference", c->name);
     }
+    for (int i = 0; i < bt_contact_column_count; ++i)
+        if (!strstr(text, bt_contact_columns[i].text))
+            fail_msg("%s is not in the reference", bt_contact_columns[i].name);
     free(text);
 }
 
