@@ -29,6 +29,7 @@ double bt_mixture_log_density(const bt_mixture* m, const double* x, double* log_
     double sum = 0;
     for (int c = 0; c < m->components; ++c)
         sum += m->share[c] * exp(p[c] - greatest);
+    // cppcheck-suppress invalidFunctionArg ; there is a component, or greatest were infinite
     return greatest + log(sum);
 }
 

@@ -10,13 +10,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+/// A count from the environment; `fallback` where it says none.
+static int number_of(const char* text, int fallback) {
+    char* end = NULL;
+    const long value = text ? strtol(text, &end, 10) : fallback;
+    return end == text || value < 0 || value > 1000000 ? fallback : (int)value;
+}
+
 /// How many processes were launched together with this one, as Open MPI's launcher says, and which
 /// of them it is. PMIX_RANK alone: launched by srun --mpi=pmix, the number is known after MPI_Init.
 static int launched(int* rank) {
     const char *size = getenv("OMPI_COMM_WORLD_SIZE"), *own = getenv("OMPI_COMM_WORLD_RANK");
     const char* pmix = getenv("PMIX_RANK");
-    *rank = own ? atoi(own) : pmix ? atoi(pmix) : 0;
-    return size ? atoi(size) : pmix ? 2 : 1;
+    *rank = number_of(own ? own : pmix, 0);
+    return number_of(size, pmix ? 2 : 1);
 }
 
 #ifdef BT_HAVE_MPI
@@ -31,7 +38,7 @@ bt_world bt_the_world = {.size = 1};
 
 /// What must be the same in every rank for the same bits.
 static uint64_t fingerprint(void) {
-    const int isa = bt_isa_best();
+    const bt_isa_level isa = bt_isa_best();
     const size_t size[2] = {sizeof(bt_model_params), sizeof(bt_finished)};
     uint64_t hash = bt_hash_bytes(BT_HASH_START, BT_VERSION, strlen(BT_VERSION));
     hash = bt_hash_bytes(hash, BT_FLAGS, strlen(BT_FLAGS));
