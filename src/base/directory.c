@@ -13,7 +13,8 @@
 enum { FILE_SIZE_MAX = 1 << 30 }; // a device may never end
 
 static bt_status fail(bt_diag* diag, const char* path, const char* what, int code) {
-    bt_diag_add(diag, BT_ERROR, (bt_where){.file = path}, "%s: %s", what, strerror(code));
+    bt_diag_add(diag, BT_ERROR, (bt_where){.file = path}, "%s: %s", what,
+                code ? strerror(code) : "the system gives no reason");
     return BT_ERR_IO;
 }
 
@@ -94,29 +95,36 @@ static bool write_all(int file, const char* data, size_t size) {
     return true;
 }
 
-bt_status bt_file_write(const char* path, const char* data, size_t size, bt_diag* diag) {
-    char temporary[BT_FILE_PATH_MAX + 32];
-    const int length = snprintf(temporary, sizeof temporary, "%s.%ld.new", path, (long)getpid());
-    if (length < 0 || (size_t)length >= sizeof temporary)
+bt_status bt_file_temporary(const char* path, char* temporary, bt_diag* diag) {
+    const int length = snprintf(temporary, BT_FILE_PATH_MAX, "%s.%ld.new", path, (long)getpid());
+    if (length < 0 || length >= BT_FILE_PATH_MAX)
         return fail(diag, path, "cannot write", ENAMETOOLONG);
+    return BT_OK;
+}
+
+bt_status bt_file_finish(const char* path, const char* temporary, bool good, int code,
+                         bt_diag* diag) {
+    if (good && rename(temporary, path) == 0)
+        return BT_OK;
+    if (good)
+        code = errno;
+    unlink(temporary);
+    return fail(diag, path, "cannot write", code);
+}
+
+bt_status bt_file_write(const char* path, const char* data, size_t size, bt_diag* diag) {
+    char temporary[BT_FILE_PATH_MAX];
+    BT_TRY(bt_file_temporary(path, temporary, diag));
     const int file = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0)
         return fail(diag, path, "cannot write", errno);
-
     bool good = write_all(file, data, size) && fsync(file) == 0;
     int code = errno;
     if (close(file) != 0 && good) {
         good = false;
         code = errno;
     }
-    if (good && rename(temporary, path) != 0) {
-        good = false;
-        code = errno;
-    }
-    if (good)
-        return BT_OK;
-    unlink(temporary);
-    return fail(diag, path, "cannot write", code);
+    return bt_file_finish(path, temporary, good, code, diag);
 }
 
 bt_status bt_file_refuse(const char* path, bt_diag* diag) {

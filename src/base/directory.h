@@ -5,6 +5,7 @@
 
 #include "base/diag.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 enum { BT_FILE_PATH_MAX = 4352 };
@@ -28,6 +29,18 @@ void bt_directory_close(bt_directory* directory);
 
 /// "PATH/NAME" into a buffer of BT_FILE_PATH_MAX bytes. BT_ERR_ARG when it does not fit.
 BT_CHECKED bt_status bt_file_path(char* buffer, const char* directory, const char* name);
+
+/// The name beside `path` under which a file is written until it is complete, into a buffer of
+/// BT_FILE_PATH_MAX bytes; another for every process. BT_ERR_IO, said in diag, when it is too long.
+BT_CHECKED bt_status bt_file_temporary(const char* path, char* temporary, bt_diag* diag);
+
+/// Ends what bt_file_temporary began: a file that was written well gets its name, any other goes.
+///
+/// @param good  whether it was written and closed
+/// @param code  errno of what went wrong; 0: not known
+/// @return BT_OK, or BT_ERR_IO, said in diag
+BT_CHECKED bt_status bt_file_finish(const char* path, const char* temporary, bool good, int code,
+                                    bt_diag* diag);
 
 /// Writes a whole file under a temporary name beside it, forces it to disk and renames it: a
 /// reader sees the old file or the new one, never a part. BT_ERR_IO, said in diag; what was there

@@ -1,5 +1,6 @@
 #include "base/text.h"
 
+#include <limits.h>
 #include <locale.h>
 #include <math.h>
 #include <stdarg.h>
@@ -140,6 +141,29 @@ int bt_text_distance(const char* a, const char* b) {
         }
     }
     return rows[length_a % 3][length_b];
+}
+
+bt_text_nearest bt_text_search(const char* typed) {
+    return (bt_text_nearest){.typed = typed, .distance = INT_MAX};
+}
+
+void bt_text_look(bt_text_nearest* nearest, const char* name) {
+    const int distance = bt_text_distance(nearest->typed, name);
+    if (distance >= nearest->distance || strlen(name) >= sizeof nearest->name)
+        return;
+    nearest->distance = distance;
+    strcpy(nearest->name, name);
+}
+
+bool bt_text_is_near(const bt_text_nearest* nearest) {
+    return *nearest->name && nearest->distance <= 1 + (int)strlen(nearest->typed) / 3;
+}
+
+const char* bt_text_suggest(const bt_text_nearest* nearest, char* text, size_t size) {
+    *text = '\0';
+    if (bt_text_is_near(nearest))
+        snprintf(text, size, "; did you mean \"%s\"?", nearest->name);
+    return text;
 }
 
 void bt_text_append(char* buffer, size_t size, const char* format, ...) {

@@ -26,6 +26,27 @@ void bt_text_plain(const char* typed, char* plain, size_t size);
 /// that turn a into b. Names longer than 63 characters are taken as unlike everything.
 int bt_text_distance(const char* a, const char* b);
 
+enum { BT_TEXT_NAME_MAX = 256 };
+
+/// A search for the name that was meant. Start it with bt_text_search.
+typedef struct bt_text_nearest {
+    const char* typed;           ///< the caller's
+    char name[BT_TEXT_NAME_MAX]; ///< the nearest so far; ""
+    int distance;
+} bt_text_nearest;
+
+bt_text_nearest bt_text_search(const char* typed);
+
+/// Keeps the name when it is nearer than those before it; a name that does not fit is left out.
+void bt_text_look(bt_text_nearest* nearest, const char* name);
+
+/// Whether the nearest name may be what was meant: more than a third of the letters wrong is no
+/// misspelling any more.
+bool bt_text_is_near(const bt_text_nearest* nearest);
+
+/// "; did you mean "length"?", or "" when the nearest name is not near. Returns text.
+const char* bt_text_suggest(const bt_text_nearest* nearest, char* text, size_t size);
+
 /// Appends formatted text at the end of a terminated buffer; cuts what does not fit.
 void bt_text_append(char* buffer, size_t size, const char* format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -299,7 +299,7 @@ static void release(search* s) {
 }
 
 /// The fit of an allocated search.
-static bt_status run(search* s, bt_fit* fit, bt_fit_progress* progress, void* user) {
+static bt_status run_fit(search* s, bt_fit* fit, bt_fit_progress* progress, void* user) {
     double u[BT_PARAMETER_MAX];
     for (int k = 0; k < s->n; ++k) {
         const bt_parameter* p = &s->c->parameters[k];
@@ -329,7 +329,7 @@ bt_status bt_calibration_fit(const bt_calibration* calibration, bt_fit* fit, con
                 .m = calibration->row_count,
                 .stop = stop,
                 .diag = diag};
-    const bt_status status = allocate(&s) ? run(&s, fit, progress, user) : BT_ERR_MEMORY;
+    const bt_status status = allocate(&s) ? run_fit(&s, fit, progress, user) : BT_ERR_MEMORY;
     release(&s);
     return status;
 }

@@ -1,8 +1,5 @@
 #include "calibration/parameter_set.h"
 
-#include "base/text.h"
-
-#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -21,34 +18,28 @@ const bt_field* bt_parameter_set_find(const bt_parameter_set* set, const char* p
     return field;
 }
 
-typedef struct nearest {
-    const char *typed, *prefix;
-    char* best;
-    size_t size;
-    int distance;
-} nearest;
+/// The paths of a group below a prefix.
+typedef struct search {
+    bt_text_nearest nearest;
+    const char* prefix;
+} search;
 
-static bool compare(void* user, const bt_field* field, const char* path, size_t offset) {
-    nearest* n = user;
-    char whole[160];
+static bool look_at_path(void* user, const bt_field* field, const char* path, size_t offset) {
+    search* s = user;
+    char whole[BT_TEXT_NAME_MAX];
     (void)offset;
-    if (field->kind > BT_FIELD_COUNT)
-        return true;
-    snprintf(whole, sizeof whole, "%s%s", n->prefix, path);
-    const int distance = bt_text_distance(n->typed, whole);
-    if (distance < n->distance) {
-        n->distance = distance;
-        snprintf(n->best, n->size, "%s", whole);
-    }
+    snprintf(whole, sizeof whole, "%s%s", s->prefix, path);
+    if (field->kind <= BT_FIELD_COUNT)
+        bt_text_look(&s->nearest, whole);
     return true;
 }
 
-void bt_parameter_set_nearest(const bt_parameter_set* set, const char* typed, char* best,
-                              size_t size) {
-    nearest n = {.typed = typed, .prefix = "", .best = best, .size = size, .distance = INT_MAX};
-    bt_params_walk(&bt_model_group, &set->model, compare, &n);
-    n.prefix = rigs_prefix;
-    bt_params_walk(&bt_rigs_group, &set->rigs, compare, &n);
+bt_text_nearest bt_parameter_set_nearest(const bt_parameter_set* set, const char* typed) {
+    search s = {.nearest = bt_text_search(typed), .prefix = ""};
+    bt_params_walk(&bt_model_group, &set->model, look_at_path, &s);
+    s.prefix = rigs_prefix;
+    bt_params_walk(&bt_rigs_group, &set->rigs, look_at_path, &s);
+    return s.nearest;
 }
 
 bt_status bt_parameter_set_check(const bt_parameter_set* specimen, bt_parameter_set_part part,

@@ -3,6 +3,7 @@
 #ifndef BT_CALIBRATION_PARAMETER_SET_H
 #define BT_CALIBRATION_PARAMETER_SET_H
 
+#include "base/text.h"
 #include "rigs/rigs.h"
 
 typedef struct bt_parameter_set {
@@ -15,9 +16,8 @@ typedef struct bt_parameter_set {
 const bt_field* bt_parameter_set_find(const bt_parameter_set* set, const char* path,
                                       size_t* offset);
 
-/// The path of a number nearest to what was typed, into `best`.
-void bt_parameter_set_nearest(const bt_parameter_set* set, const char* typed, char* best,
-                              size_t size);
+/// The path of a number nearest to what was typed.
+bt_text_nearest bt_parameter_set_nearest(const bt_parameter_set* set, const char* typed);
 
 /// What an experiment on a specimen needs of it.
 typedef enum bt_parameter_set_part {

@@ -5,7 +5,6 @@
 #include "study/reader.h"
 #include "study/rig_inputs.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,10 +33,9 @@ static const bt_field* find_field(reading* r, const bt_node* key, const char* pa
                         path, key->text);
         return NULL;
     }
-    char nearest[160] = "";
-    bt_parameter_set_nearest(&r->c->base, key->text, nearest, sizeof nearest);
+    const bt_text_nearest nearest = bt_parameter_set_nearest(&r->c->base, key->text);
     bt_reader_error(&r->reader, key->where, "%s.%s: no such key; did you mean \"%s\"?", path,
-                    key->text, nearest);
+                    key->text, nearest.name);
     return NULL;
 }
 
@@ -209,8 +207,7 @@ static void add_experiments(reading* r, bt_target* t, const bt_simulated_case* e
 /// Finds "bounce_height" or "nose_drop.stroke_max"; false after reporting an error.
 static bool find_metric(reading* r, const bt_node* node, const char* path, bt_target* t,
                         bt_simulated_case_kind* kind) {
-    const char* best = NULL;
-    int distance = INT_MAX;
+    bt_text_nearest nearest = bt_text_search(node->text);
     char names[BT_CASE_METRIC_MAX * BT_CASE_KINDS][64], help[160];
     int count = 0;
     for (int k = BT_CASE_LANDING; k < BT_CASE_KINDS; ++k) {
@@ -228,10 +225,10 @@ static bool find_metric(reading* r, const bt_node* node, const char* path, bt_ta
                 *kind = (bt_simulated_case_kind)k;
                 return true;
             }
-            bt_reader_nearest(node->text, name, &best, &distance);
+            bt_text_look(&nearest, name);
         }
     }
-    bt_reader_suggest(node->text, best, distance, help, sizeof help);
+    bt_text_suggest(&nearest, help, sizeof help);
     if (strcmp(node->text, "impact_force") == 0) // its name up to 0.1
         snprintf(help, sizeof help, "; did you mean \"bounce_impact_force\"?");
     bt_reader_error(

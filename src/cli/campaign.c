@@ -133,7 +133,7 @@ static bt_status write_slurm(const bt_command* command) {
     return status;
 }
 
-static bt_status run(const bt_command* typed) {
+static bt_status run_campaign(const bt_command* typed) {
     const bool status_only = strcmp(typed->words[0], "status") == 0;
     const bool merging = strcmp(typed->words[0], "merge") == 0;
     bt_command command = *typed;
@@ -194,5 +194,5 @@ const bt_verb bt_verb_campaign = {
     .least_words = 1,
     .most_words = BT_WORDS_MAX,
     .outputs = BT_OUTPUT_DIRECTORY,
-    .run = run,
+    .run = run_campaign,
 };

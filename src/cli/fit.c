@@ -87,7 +87,7 @@ static bt_status fit(bt_chain* chain) {
     return BT_OK;
 }
 
-static bt_status run(const bt_command* command) {
+static bt_status run_fit(const bt_command* command) {
     bt_chain chain;
     bt_status status = bt_chain_open(command, BT_LEDGER_WRITE, &chain);
     if (status == BT_OK)
@@ -112,5 +112,5 @@ const bt_verb bt_verb_fit = {
     .least_words = 1,
     .most_words = 1,
     .outputs = BT_OUTPUT_DIRECTORY,
-    .run = run,
+    .run = run_fit,
 };

@@ -1,9 +1,8 @@
+#include "base/text.h"
 #include "cli/output.h"
 #include "report/result_keys.h"
 #include "report/table.h"
-#include "study/reader.h"
 
-#include <limits.h>
 #include <stdio.h>
 
 static const bt_column columns[] = {
@@ -30,27 +29,16 @@ static void add_row(void* table, const bt_key_text* key) {
     bt_report_table_text(table, key->meaning);
 }
 
-/// The nearest key to one that there is not.
-typedef struct search {
-    const char* wanted;
-    char nearest[256];
-    int distance;
-} search;
-
-static void compare(void* user, const bt_key_text* key) {
-    search* s = user;
-    const char* nearest = NULL;
-    bt_reader_nearest(s->wanted, key->path, &nearest, &s->distance);
-    if (nearest)
-        snprintf(s->nearest, sizeof s->nearest, "%s", nearest);
+static void look_at_key(void* user, const bt_key_text* key) {
+    bt_text_look(user, key->path);
 }
 
 static bt_status refuse_part(const bt_command* command, const char* part) {
-    search s = {.wanted = part, .distance = INT_MAX};
+    bt_text_nearest nearest = bt_text_search(part);
     char hint[320];
-    (void)bt_study_each_key(NULL, compare, &s);
-    bt_reader_suggest(part, *s.nearest ? s.nearest : NULL, s.distance, hint, sizeof hint);
-    return bt_usage_error(command, "there is no key \"%s\"%s", part, hint);
+    (void)bt_study_each_key(NULL, look_at_key, &nearest);
+    return bt_usage_error(command, "there is no key \"%s\"%s", part,
+                          bt_text_suggest(&nearest, hint, sizeof hint));
 }
 
 static bt_status put(const bt_command* command, const bt_report_table* table) {
@@ -73,7 +61,7 @@ static bt_status print_part(const bt_command* command, const char* part) {
     return status;
 }
 
-static bt_status run(const bt_command* command) {
+static bt_status run_keys(const bt_command* command) {
     const char* part = command->word_count > 0 ? command->words[0] : NULL;
     const bool results = command->option[1] != NULL;
     if (results && (part || command->option[0]))
@@ -111,5 +99,5 @@ const bt_verb bt_verb_keys = {
             "  bolter keys --defaults > mine.yaml     to begin a study of your own",
     .options = options,
     .most_words = 1,
-    .run = run,
+    .run = run_keys,
 };

@@ -85,7 +85,7 @@ static bt_status land(const bt_command* command, const bt_study* study, recorder
     return BT_ERR_FAILED_RUNS;
 }
 
-static bt_status run(const bt_command* command) {
+static bt_status run_land(const bt_command* command) {
     bt_study study;
     recorder r = {0};
     BT_TRY(bt_command_study(command, &study));
@@ -119,5 +119,5 @@ const bt_verb bt_verb_land = {
     .most_words = 1,
     .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_TABLE | BT_OUTPUT_PAGE | BT_OUTPUT_PARAVIEW |
                BT_OUTPUT_DIRECTORY,
-    .run = run,
+    .run = run_land,
 };

@@ -2,12 +2,11 @@
 #include "cli/version.h"
 
 #include "base/arithmetic.h"
+#include "base/text.h"
 #include "cluster/cluster.h"
-#include "study/reader.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <limits.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -99,12 +98,11 @@ static const bt_verb* find_verb(const char* name) {
 }
 
 static int refuse_verb(const char* name) {
-    const char* nearest = NULL;
-    int distance = INT_MAX;
+    bt_text_nearest nearest = bt_text_search(name);
     char hint[64];
     for (int i = 0; i < VERB_COUNT; ++i)
-        bt_reader_nearest(name, verbs[i]->name, &nearest, &distance);
-    bt_reader_suggest(name, nearest, distance, hint, sizeof hint);
+        bt_text_look(&nearest, verbs[i]->name);
+    bt_text_suggest(&nearest, hint, sizeof hint);
     fprintf(stderr, "bolter: unknown verb \"%s\"%s See bolter --help\n", name, *hint ? hint : ".");
     return bt_exit_code(BT_ERR_ARG);
 }

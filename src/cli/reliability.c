@@ -121,7 +121,7 @@ static bt_status run_with(bt_chain* chain) {
     return status;
 }
 
-static bt_status run(const bt_command* command) {
+static bt_status run_reliability(const bt_command* command) {
     bt_chain chain;
     bt_status status = bt_chain_open(command, BT_LEDGER_WRITE, &chain);
     if (status == BT_OK)
@@ -156,5 +156,5 @@ const bt_verb bt_verb_reliability = {
     .least_words = 1,
     .most_words = 1,
     .outputs = BT_OUTPUT_TABLE | BT_OUTPUT_DIRECTORY,
-    .run = run,
+    .run = run_reliability,
 };

@@ -174,7 +174,7 @@ static bt_status find_and_replay(bt_chain* chain, int64_t run_number) {
     return status;
 }
 
-static bt_status run(const bt_command* command) {
+static bt_status run_replay(const bt_command* command) {
     int64_t run_number = -1;
     const bool searched = command->option[OPTION_MISSED] || command->option[OPTION_NEAREST];
     if (searched == (command->word_count > 1))
@@ -210,5 +210,5 @@ const bt_verb bt_verb_replay = {
     .least_words = 1,
     .most_words = 2,
     .outputs = BT_OUTPUT_DIRECTORY,
-    .run = run,
+    .run = run_replay,
 };

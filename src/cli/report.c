@@ -21,7 +21,7 @@ static bt_status page_path(const bt_command* command, const bt_study* study, cha
     return bt_file_path(path, study->directory, "report.html");
 }
 
-static bt_status run(const bt_command* command) {
+static bt_status run_report(const bt_command* command) {
     char path[BT_FILE_PATH_MAX];
     bt_study study;
     BT_TRY(bt_command_study(command, &study));
@@ -48,5 +48,5 @@ const bt_verb bt_verb_report = {
     .least_words = 1,
     .most_words = 1,
     .outputs = BT_OUTPUT_PAGE | BT_OUTPUT_DIRECTORY,
-    .run = run,
+    .run = run_report,
 };

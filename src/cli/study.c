@@ -51,7 +51,7 @@ static bt_status run_chain(bt_chain* chain) {
     return write_page(chain, hint);
 }
 
-static bt_status run(const bt_command* command) {
+static bt_status run_study(const bt_command* command) {
     bt_chain chain;
     BT_TRY(bt_time_limit(command, command->option[0]));
     bt_status status = bt_chain_open(command, BT_LEDGER_CREATE, &chain);
@@ -80,5 +80,5 @@ const bt_verb bt_verb_study = {
     .least_words = 1,
     .most_words = 1,
     .outputs = BT_OUTPUT_DIRECTORY,
-    .run = run,
+    .run = run_study,
 };

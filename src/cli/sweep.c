@@ -310,7 +310,7 @@ static bt_status run_sweeps(const bt_command* command, const bt_study* study, co
     return status == BT_OK && s.failed > 0 ? BT_ERR_FAILED_RUNS : status;
 }
 
-static bt_status run(const bt_command* command) {
+static bt_status run_sweep(const bt_command* command) {
     const char *key = command->option[0], *values = command->option[1];
     if (!key != !values)
         return bt_usage_error(command, "--key and --values go together");
@@ -359,5 +359,5 @@ const bt_verb bt_verb_sweep = {
     .least_words = 1,
     .most_words = 1,
     .outputs = BT_OUTPUT_TABLE | BT_OUTPUT_DIRECTORY,
-    .run = run,
+    .run = run_sweep,
 };

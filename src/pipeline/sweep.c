@@ -6,7 +6,6 @@
 #include "landing/view.h"
 
 #include <ctype.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,21 +17,10 @@ static bool is_number(const bt_field* field) {
            field->kind == BT_FIELD_COUNT;
 }
 
-/// The numeric key nearest to what was typed.
-typedef struct nearest_key {
-    const char* typed;
-    char best[128];
-    int distance;
-} nearest_key;
-
-static bool look_nearer(void* user, const bt_field* field, const char* path, size_t offset) {
-    nearest_key* nearest = user;
+static bool look_at_path(void* user, const bt_field* field, const char* path, size_t offset) {
     (void)offset;
-    const int distance = bt_text_distance(nearest->typed, path);
-    if (is_number(field) && distance < nearest->distance) {
-        nearest->distance = distance;
-        snprintf(nearest->best, sizeof nearest->best, "%s", path);
-    }
+    if (is_number(field))
+        bt_text_look(user, path);
     return true;
 }
 
@@ -45,10 +33,10 @@ bt_status bt_sweep_find(const bt_model_params* model, const char* key, const bt_
         bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "%s: a key that holds one number is wanted", key);
         return BT_ERR_INPUT;
     }
-    nearest_key nearest = {.typed = key, .distance = INT_MAX};
-    bt_params_walk(&bt_model_group, model, look_nearer, &nearest);
+    bt_text_nearest nearest = bt_text_search(key);
+    bt_params_walk(&bt_model_group, model, look_at_path, &nearest);
     bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "%s: unknown key; did you mean \"%s\"?", key,
-                nearest.best);
+                nearest.name);
     return BT_ERR_INPUT;
 }
 

@@ -116,7 +116,7 @@ static double centre(const work* w) {
     return mean;
 }
 
-static bt_status run(work* w, int threads, double* sorted, bt_sobol_result* r) {
+static bt_status compute_indices(work* w, int threads, double* sorted, bt_sobol_result* r) {
     double index[2 * BT_INPUT_MAX];
     BT_TRY(bt_tasks_run(threads, (w->samples + BATCH - 1) / BATCH, evaluate, w));
     r->mean = centre(w);
@@ -157,7 +157,7 @@ bt_status bt_sobol_indices(const bt_sampler* sampler, bt_function* f, void* user
     double* sorted = malloc(((size_t)bootstrap + 1) * sizeof *sorted);
     bt_status status = BT_ERR_MEMORY;
     if (w.value && w.drawn && sorted)
-        status = run(&w, threads, sorted, result);
+        status = compute_indices(&w, threads, sorted, result);
     free(w.value);
     free(w.drawn);
     free(sorted);

@@ -1,5 +1,8 @@
 #include "report/hdf5_text.h"
 
+#include "base/directory.h"
+
+#include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -46,4 +49,19 @@ bool bt_hdf5_may_go(const char* path) {
     const bool ours = H5Aexists(file, "title") > 0 && H5Lexists(file, "study", H5P_DEFAULT) > 0;
     H5Fclose(file);
     return ours;
+}
+
+bt_status bt_hdf5_write(const char* path, bt_hdf5_content* content, const void* user,
+                        bt_diag* diag) {
+    char temporary[BT_FILE_PATH_MAX];
+    if (!bt_hdf5_may_go(path))
+        return bt_file_refuse(path, diag);
+    BT_TRY(bt_file_temporary(path, temporary, diag));
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // errors are ours to report
+    errno = 0;
+    const hid_t file = H5Fcreate(temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    bool good = file >= 0 && content(file, user);
+    if (file >= 0)
+        good &= H5Fclose(file) >= 0;
+    return bt_file_finish(path, temporary, good, errno, diag);
 }

@@ -5,11 +5,9 @@
 #include "base/units.h"
 #include "report/hdf5_text.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /// What is kept of every view: one row here, one dataset in the file.
 typedef struct channel {
@@ -200,14 +198,22 @@ static bool write_cable(const bt_history* h, hid_t file, hid_t links) {
     return good;
 }
 
-static bool write_all(const bt_history* h, hid_t file, const bt_study* study,
-                      const bt_landing_result* result) {
+/// What goes into a file.
+typedef struct content {
+    const bt_history* history;
+    const bt_study* study;
+    const bt_landing_result* result;
+} content;
+
+static bool write_all(hid_t file, const void* user) {
+    const content* c = user;
+    const bt_history* h = c->history;
     const hid_t links = H5Pcreate(H5P_LINK_CREATE);
     bool good = links >= 0 && H5Pset_create_intermediate_group(links, 1) >= 0;
-    good = good && bt_hdf5_attribute(file, "outcome", bt_outcome_name(result->outcome)) &&
-           bt_hdf5_attribute(file, "mode", bt_mode_name(result->mode)) &&
-           bt_hdf5_attribute(file, "title", study->title) &&
-           bt_hdf5_text(file, "study", study->text);
+    good = good && bt_hdf5_attribute(file, "outcome", bt_outcome_name(c->result->outcome)) &&
+           bt_hdf5_attribute(file, "mode", bt_mode_name(c->result->mode)) &&
+           bt_hdf5_attribute(file, "title", c->study->title) &&
+           bt_hdf5_text(file, "study", c->study->text);
     for (int i = 0; i < CHANNEL_COUNT; ++i)
         good = good && write_channel(&channels[i], &h->channel[i], file, links);
     good = good && write_bodies(h, file, links) && write_cable(h, file, links);
@@ -270,23 +276,5 @@ bt_status bt_history_write(const bt_history* history, const char* path, const bt
         return bt_file_refuse(path, diag);
     if (is_csv(path))
         return write_csv(history, path, result, diag);
-    if (!bt_hdf5_may_go(path))
-        return bt_file_refuse(path, diag);
-    char temporary[4352];
-    const int length = snprintf(temporary, sizeof temporary, "%s.%ld.new", path, (long)getpid());
-    if (length < 0 || (size_t)length >= sizeof temporary)
-        return BT_ERR_ARG;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* errors are ours to report */
-    errno = 0;
-    const hid_t file = H5Fcreate(temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    bool good = file >= 0 && write_all(history, file, study, result);
-    if (file >= 0)
-        good &= H5Fclose(file) >= 0;
-    if (good && rename(temporary, path) == 0)
-        return BT_OK;
-    const int code = errno;
-    unlink(temporary);
-    bt_diag_add(diag, BT_ERROR, (bt_where){.file = path}, "cannot write the time histories: %s",
-                code ? strerror(code) : "HDF5 error");
-    return BT_ERR_IO;
+    return bt_hdf5_write(path, write_all, &(content){history, study, result}, diag);
 }

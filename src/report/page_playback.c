@@ -79,8 +79,9 @@ static void choose(const bt_page* page, picks* p, double* scratch) {
         add(p, arm, "typical catch, by the arm");
 }
 
-static bt_status run(const bt_page* page, bt_lander* lander, bt_model_params* model,
-                     const pick* chosen, bt_playback* playback, bt_landing_result* result) {
+static bt_status run_playback(const bt_page* page, bt_lander* lander, bt_model_params* model,
+                              const pick* chosen, bt_playback* playback,
+                              bt_landing_result* result) {
     const bt_page_landings* l = &page->landings;
     if (chosen->landing < 0)
         return bt_landing_try(lander, model, result, bt_playback_observe, playback);
@@ -95,7 +96,7 @@ static bt_status record(bt_page* page, bt_lander* lander, const pick* chosen,
     bt_landing_result result;
     *model = page->subject->study->model;
     BT_TRY(bt_playback_create(BT_PLAYBACK_ROWS_AMONG, BT_PLAYBACK_NODES, &playback));
-    bt_status status = run(page, lander, model, chosen, playback, &result);
+    bt_status status = run_playback(page, lander, model, chosen, playback, &result);
     const int64_t number = chosen->landing < 0 ? -1 : page->landings.run[chosen->landing];
     if (status == BT_OK)
         status = bt_playback_write(page->json, playback, number, chosen->name, model, &result,

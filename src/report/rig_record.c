@@ -4,12 +4,10 @@
 #include "base/units.h"
 #include "report/hdf5_text.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 void bt_rig_record_start(bt_rig_record* record, bt_rig_kind kind) {
     *record = (bt_rig_record){.kind = kind, .names = {"time_s"}};
@@ -110,11 +108,20 @@ static bool write_number(hid_t file, const char* name, double value) {
     return good;
 }
 
-static bool write_all(const bt_rig_record* record, hid_t file, const bt_study* study,
-                      const bt_rig_result* result) {
-    bool good = bt_hdf5_attribute(file, "title", study->title) &&
+/// What goes into a file.
+typedef struct content {
+    const bt_rig_record* record;
+    const bt_study* study;
+    const bt_rig_result* result;
+} content;
+
+static bool write_all(hid_t file, const void* user) {
+    const content* c = user;
+    const bt_rig_record* record = c->record;
+    const bt_rig_result* result = c->result;
+    bool good = bt_hdf5_attribute(file, "title", c->study->title) &&
                 bt_hdf5_attribute(file, "rig", bt_rig_keys[record->kind]) &&
-                bt_hdf5_text(file, "study", study->text);
+                bt_hdf5_text(file, "study", c->study->text);
     for (int i = 0; good && i < record->column_count; ++i)
         good = write_column(record, file, i);
     for (int i = 0; good && i < result->metric_count; ++i) {
@@ -132,23 +139,7 @@ bt_status bt_rig_record_write(const bt_rig_record* record, const char* path, con
                               const bt_rig_result* result, bt_diag* diag) {
     if (record->out_of_memory)
         return BT_ERR_MEMORY;
-    if (bt_study_reads(study, path) || !bt_hdf5_may_go(path))
+    if (bt_study_reads(study, path))
         return bt_file_refuse(path, diag);
-    char temporary[4352];
-    const int length = snprintf(temporary, sizeof temporary, "%s.%ld.new", path, (long)getpid());
-    if (length < 0 || (size_t)length >= sizeof temporary)
-        return BT_ERR_ARG;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // errors are ours to report
-    errno = 0;
-    const hid_t file = H5Fcreate(temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    bool good = file >= 0 && write_all(record, file, study, result);
-    if (file >= 0)
-        good &= H5Fclose(file) >= 0;
-    if (good && rename(temporary, path) == 0)
-        return BT_OK;
-    const int code = errno;
-    unlink(temporary);
-    bt_diag_add(diag, BT_ERROR, (bt_where){.file = path}, "cannot write the time histories: %s",
-                code ? strerror(code) : "HDF5 error");
-    return BT_ERR_IO;
+    return bt_hdf5_write(path, write_all, &(content){record, study, result}, diag);
 }

@@ -226,8 +226,8 @@ static double next_step(const bt_drop_params* drop, const drop_rig* d, double st
     return step;
 }
 
-static bt_status run(const bt_gear_params* gear, const bt_drop_params* drop, drop_rig* d,
-                     bt_rig_result* result) {
+static bt_status run_drop(const bt_gear_params* gear, const bt_drop_params* drop, drop_rig* d,
+                          bt_rig_result* result) {
     BT_TRY(build(gear, drop, d));
     d->rig.state.applied[6 * BODY_MASS + 2] = d->lift_N;
     BT_TRY(bt_rig_begin(&d->rig));
@@ -256,7 +256,7 @@ bt_status bt_rig_run_drop(const bt_gear_params* gear, const bt_drop_params* drop
     drop_rig d = {0};
     bt_status status = bt_rig_open(&d.rig, observer, user, diag);
     if (status == BT_OK)
-        status = run(gear, drop, &d, result);
+        status = run_drop(gear, drop, &d, result);
     bt_rig_close(&d.rig);
     return status;
 }

@@ -290,8 +290,8 @@ static double next_step(const bt_rebound_params* p, const bounce* b, double sink
     return b->last_height_m > reach ? p->step_s : p->contact_step_s;
 }
 
-static bt_status run(const bt_hook_params* hook, const bt_rebound_params* p, rebound_rig* r,
-                     bt_rig_result* result) {
+static bt_status run_rebound(const bt_hook_params* hook, const bt_rebound_params* p, rebound_rig* r,
+                             bt_rig_result* result) {
     BT_TRY(build(hook, p, r));
     r->rig.frame_mps[0] = p->rim_speed_mps;
     r->rig.state.applied[6 * BODY_BASKET + 2] = r->lift_N;
@@ -320,7 +320,7 @@ bt_status bt_rig_run_rebound(const bt_hook_params* hook, const bt_rebound_params
     rebound_rig r = {0};
     bt_status status = bt_rig_open(&r.rig, observer, user, diag);
     if (status == BT_OK)
-        status = run(hook, rebound, &r, result);
+        status = run_rebound(hook, rebound, &r, result);
     bt_rig_close(&r.rig);
     return status;
 }

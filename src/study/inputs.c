@@ -1,8 +1,8 @@
 #include "study/inputs.h"
 
+#include "base/text.h"
 #include "base/units.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,20 +16,10 @@ static bool may_be_input(const bt_field* field) {
     return field->kind == BT_FIELD_REAL || field->kind == BT_FIELD_PLAIN;
 }
 
-typedef struct nearest {
-    const char* typed;
-    char best[PATH_SIZE];
-    int distance;
-} nearest;
-
-static bool compare_path(void* user, const bt_field* field, const char* path, size_t offset) {
+static bool look_at_path(void* user, const bt_field* field, const char* path, size_t offset) {
     (void)offset;
-    nearest* n = user;
-    const char* best = NULL;
     if (may_be_input(field))
-        bt_reader_nearest(n->typed, path, &best, &n->distance);
-    if (best)
-        snprintf(n->best, sizeof n->best, "%s", best);
+        bt_text_look(user, path);
     return true;
 }
 
@@ -50,10 +40,10 @@ static void report_path(bt_reader* reader, const bt_node* key, const char* chapt
                         typed);
         return;
     }
-    nearest n = {.typed = typed, .distance = INT_MAX};
-    bt_params_walk(&bt_model_group, model, compare_path, &n);
+    bt_text_nearest nearest = bt_text_search(typed);
+    bt_params_walk(&bt_model_group, model, look_at_path, &nearest);
     char help[PATH_SIZE + 32];
-    bt_reader_suggest(typed, n.best, n.distance, help, sizeof help);
+    bt_text_suggest(&nearest, help, sizeof help);
     bt_reader_error(reader, key->where, "%s.%s: no such key of the model%s", chapter, typed,
                     *help ? help : "; it must be a path as in landing.sink_speed");
 }

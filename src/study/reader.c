@@ -3,7 +3,6 @@
 #include "base/text.h"
 #include "base/units.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -85,25 +84,6 @@ void bt_reader_join(char* joined, size_t size, const char* path, const char* nam
 
 // --- names ----------------------------------------------------------------------------------
 
-void bt_reader_nearest(const char* typed, const char* name, const char** best, int* distance) {
-    const int d = bt_text_distance(typed, name);
-    if (d < *distance) {
-        *distance = d;
-        *best = name;
-    }
-}
-
-/// More than a third of the letters wrong is no misspelling any more.
-static bool is_near(const char* typed, const char* best, int distance) {
-    return best && distance <= 1 + (int)strlen(typed) / 3;
-}
-
-void bt_reader_suggest(const char* typed, const char* best, int distance, char* text, size_t size) {
-    *text = '\0';
-    if (is_near(typed, best, distance))
-        snprintf(text, size, "; did you mean \"%s\"?", best);
-}
-
 static const char* kind_name(const bt_node* node) {
     return node->kind == BT_NODE_MAPPING    ? "a mapping"
            : node->kind == BT_NODE_SEQUENCE ? "a sequence"
@@ -144,10 +124,9 @@ static bool is_among(const char* const* names, const char* name) {
     return false;
 }
 
-static void nearest_of(const char* const* names, const char* typed, const char** best,
-                       int* distance) {
+static void look_among(bt_text_nearest* nearest, const char* const* names) {
     for (; names && *names; ++names)
-        bt_reader_nearest(typed, *names, best, distance);
+        bt_text_look(nearest, *names);
 }
 
 static void append_names(char* list, size_t size, const char* const* names) {
@@ -158,12 +137,10 @@ static void append_names(char* list, size_t size, const char* const* names) {
 /// "; did you mean ..." or "; known here: ...", whichever helps.
 static void explain_unknown(const char* typed, const char* const* names, const char* const* more,
                             char* text, size_t size) {
-    const char* best = NULL;
-    int distance = INT_MAX;
-    nearest_of(names, typed, &best, &distance);
-    nearest_of(more, typed, &best, &distance);
-    bt_reader_suggest(typed, best, distance, text, size);
-    if (*text)
+    bt_text_nearest nearest = bt_text_search(typed);
+    look_among(&nearest, names);
+    look_among(&nearest, more);
+    if (*bt_text_suggest(&nearest, text, size))
         return;
     char list[512] = "";
     append_names(list, sizeof list, names);
@@ -265,13 +242,11 @@ bool bt_reader_choice(bt_reader* reader, const char* const* names, const bt_node
             return true;
         }
     char list[512] = "", help[640];
-    const char* best = NULL;
-    int distance = INT_MAX;
+    bt_text_nearest nearest = bt_text_search(node->text);
     append_names(list, sizeof list, names);
-    nearest_of(names, node->text, &best, &distance);
-    bt_reader_suggest(node->text, best, distance, help, sizeof help);
+    look_among(&nearest, names);
     bt_reader_error(reader, node->where, "%s: \"%.*s\" is none of %s%s", path, SHOWN, node->text,
-                    list, help);
+                    list, bt_text_suggest(&nearest, help, sizeof help));
     return false;
 }
 
@@ -443,13 +418,12 @@ static bool is_misspelt(const bt_node* node, const char* name, const char* const
                         const char* const* also) {
     for (const bt_node* child = node->first; child; child = child->next) {
         const char* typed = child->key->text;
-        const char* best = NULL;
-        int distance = INT_MAX;
+        bt_text_nearest nearest = bt_text_search(typed);
         if (is_among(names, typed) || is_among(also, typed))
             continue;
-        nearest_of(names, typed, &best, &distance);
-        nearest_of(also, typed, &best, &distance);
-        if (is_near(typed, best, distance) && strcmp(best, name) == 0)
+        look_among(&nearest, names);
+        look_among(&nearest, also);
+        if (bt_text_is_near(&nearest) && strcmp(nearest.name, name) == 0)
             return true;
     }
     return false;

@@ -61,13 +61,6 @@ void bt_reader_known_keys(bt_reader* reader, const bt_node* node, const char* pa
 void bt_reader_check(bt_reader* reader, const bt_group* group, const void* params, const char* path,
                      const bt_node* node);
 
-/// Keeps the name nearest to what was typed in *best and how far it is in *distance (start with
-/// NULL and INT_MAX).
-void bt_reader_nearest(const char* typed, const char* name, const char** best, int* distance);
-
-/// "; did you mean "length"?", or "" when the best name is too far to be what was meant.
-void bt_reader_suggest(const char* typed, const char* best, int distance, char* text, size_t size);
-
 /// path + "." + name; either may be empty.
 void bt_reader_join(char* joined, size_t size, const char* path, const char* name);
 

@@ -94,6 +94,14 @@ static void static_curve_can_be_calibrated(void** state) {
                      0);
     assert_has(f->out, "currey.csv of nose_static");
     assert_has(f->out, "NOT identified");
+    assert_int_equal(bolter(f, "calibrate studies/rigs/currey.yaml studies/rigs/currey_fit.yaml "
+                               "--json -o %/again.yaml"),
+                     0);
+    static const char* const keys[] = {"\"letter\": \"c\"", "\"sensitivity\": [",
+                                       "\"correlation\": [", "\"identified\": false",
+                                       "\"residual_tolerances\": "};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
+        assert_has(f->out, keys[i]);
     assert_int_equal(
         bolter(f, "rig nose-static studies/rigs/currey.yaml --set @%/fitted.yaml -o %/x"), 0);
     assert_has(f->out, "rms difference 2817");
