@@ -50,6 +50,9 @@ typedef struct bt_reliability_stage {
 /// when all are there and came from the same surrogate, distributions, conditions and settings.
 ///
 /// @param fresh  whether they were written now; may be NULL
+/// @return BT_OK; BT_ERR_FAILED_RUNS (more high-fidelity runs than campaign.max_failed allows, said
+///         in diag: the files are written, and not taken for up to date); what bt_reliability_run
+///         and bt_ledger_set_remark return
 BT_CHECKED bt_status bt_stage_reliability(bt_study_directory* directory,
                                           const bt_surrogate* surrogate,
                                           const bt_reliability_stage* stage, bool* fresh);

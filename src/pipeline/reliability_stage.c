@@ -54,8 +54,10 @@ static bt_status judge(bt_study_directory* directory, bt_evidence* evidence, bt_
     return status;
 }
 
+/// @param failed  receives BT_ERR_FAILED_RUNS, said in diag, when too many of its landings failed
 static bt_status compute(bt_study_directory* directory, const bt_surrogate* surrogate,
-                         const bt_reliability_stage* stage, bt_reliability_result* result) {
+                         const bt_reliability_stage* stage, bt_reliability_result* result,
+                         bt_status* failed) {
     const int threads = (int)directory->study->campaign.threads;
     bt_high_fidelity* truth = NULL;
     bt_evidence evidence = {0};
@@ -72,6 +74,7 @@ static bt_status compute(bt_study_directory* directory, const bt_surrogate* surr
                                             .watch_user = stage->watch_user};
     if (status == BT_OK)
         status = bt_reliability_run(directory->study, surrogate, &options, result, directory->diag);
+    *failed = status == BT_OK ? bt_high_fidelity_check_failed(truth, directory->diag) : status;
     bt_high_fidelity_destroy(truth);
     bt_judged_destroy(judged);
     bt_evidence_destroy(&evidence);
@@ -98,13 +101,17 @@ static bt_status store(bt_study_directory* directory, const bt_reliability_file*
 static bt_status renew(bt_study_directory* directory, const bt_surrogate* surrogate,
                        const bt_reliability_stage* stage, const char* key) {
     bt_reliability_result* result = calloc(1, sizeof *result);
-    bt_status status = result ? compute(directory, surrogate, stage, result) : BT_ERR_MEMORY;
+    bt_status failed = BT_ERR_MEMORY;
+    bt_status status =
+        result ? compute(directory, surrogate, stage, result, &failed) : BT_ERR_MEMORY;
     for (const bt_reliability_file* f = stage->files; f->name && status == BT_OK; ++f)
         status = store(directory, f, result);
-    if (status == BT_OK)
-        status = bt_ledger_set_remark(directory->ledger, "reliability", key, directory->diag);
     if (status == BT_OK && stage->result)
         *stage->result = *result;
+    if (status == BT_OK) // a table with too many failures is there to be read, but is no result
+        status = failed == BT_OK
+                     ? bt_ledger_set_remark(directory->ledger, "reliability", key, directory->diag)
+                     : failed;
     free(result);
     return status;
 }

@@ -1,6 +1,7 @@
 #include "reliability/high_fidelity.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,6 +11,9 @@ struct bt_high_fidelity {
     int threads;
     const atomic_int* stop;
     const bt_backend* backend;
+    int64_t runs, failed; ///< so far; of them without an outcome
+    int64_t first_failed; ///< number of the earliest of those
+    char reason[160];     ///< its own
 };
 
 bt_status bt_high_fidelity_create(const bt_study* study, int threads, const atomic_int* stop,
@@ -33,6 +37,7 @@ void bt_high_fidelity_destroy(bt_high_fidelity* truth) {
 
 /// Points on their way through the executor.
 typedef struct batch {
+    bt_high_fidelity* truth;
     const double* x;
     int dims, count, next;
     int* label;
@@ -47,15 +52,26 @@ static bool give(void* user, bt_job* job) {
     return true;
 }
 
+/// Keeps the reason of the earliest failure, in whatever order they come.
+static void note_failure(bt_high_fidelity* t, int64_t run, const bt_landing_result* result) {
+    if (t->failed++ > 0 && run > t->first_failed)
+        return;
+    t->first_failed = run;
+    snprintf(t->reason, sizeof t->reason, "%s: %s", result->failed_element,
+             result->failed_quantity);
+}
+
 static bt_status take(void* user, const bt_job* job, const bt_landing_result* result) {
     const batch* b = user;
+    if (result->outcome == BT_FAILED)
+        note_failure(b->truth, b->truth->runs + job->run, result);
     b->label[job->run] = result->outcome == BT_FAILED ? -1 : result->outcome == BT_ENGAGED;
     return BT_OK;
 }
 
 bt_status bt_high_fidelity_run(void* truth, const double* x, int n, int* label) {
-    const bt_high_fidelity* t = truth;
-    batch b = {.x = x, .dims = t->inputs.count, .count = n, .label = label};
+    bt_high_fidelity* t = truth;
+    batch b = {.truth = t, .x = x, .dims = t->inputs.count, .count = n, .label = label};
     const bt_executor executor = {.model = &t->study->model,
                                   .inputs = t->study->inputs,
                                   .axes = &t->inputs,
@@ -65,7 +81,21 @@ bt_status bt_high_fidelity_run(void* truth, const double* x, int n, int* label) 
                                   .sink = take,
                                   .user = &b,
                                   .backend = t->backend};
-    return bt_executor_run(&executor, NULL);
+    const bt_status status = bt_executor_run(&executor, NULL);
+    t->runs += n;
+    return status;
+}
+
+bt_status bt_high_fidelity_check_failed(const bt_high_fidelity* truth, bt_diag* diag) {
+    const double allowed = truth->study->campaign.max_failed;
+    if ((double)truth->failed <= allowed * (double)truth->runs)
+        return BT_OK;
+    bt_diag_add(
+        diag, BT_ERROR, BT_NOWHERE,
+        "%lld of %lld high-fidelity runs failed, more than campaign.max_failed = %g allows; "
+        "the first: %s",
+        (long long)truth->failed, (long long)truth->runs, allowed, truth->reason);
+    return BT_ERR_FAILED_RUNS;
 }
 
 /* ---- the referee ---- */

@@ -31,10 +31,14 @@ void bt_high_fidelity_destroy(bt_high_fidelity* truth);
 /// outcome: -1. Returns BT_OK, BT_ERR_INTERRUPTED, BT_ERR_MEMORY.
 BT_CHECKED bt_status bt_high_fidelity_run(void* truth, const double* x, int n, int* label);
 
+/// Whether no more of the landings so far had no outcome than campaign.max_failed allows.
+/// BT_ERR_FAILED_RUNS, said in diag with the reason of the first.
+BT_CHECKED bt_status bt_high_fidelity_check_failed(const bt_high_fidelity* truth, bt_diag* diag);
+
 /// Direct Monte Carlo on the truth: the referee that needs no surrogate.
 typedef struct bt_direct_result {
     int64_t samples, engaged, failed;
-    double probability; ///< of engagement, failed runs left out
+    double probability; ///< share engaged, failed runs left out
     bt_interval ci95;   ///< Clopper-Pearson; failed runs counted as missed below, engaged above
 } bt_direct_result;
 

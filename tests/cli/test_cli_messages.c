@@ -4,6 +4,13 @@
 
 #include <time.h>
 
+#define COARSE                                                                                     \
+    "--set deck.cable.mesh.fine_length='0.2 m' --set deck.cable.mesh.medium_length='0.3 m' "       \
+    "--set deck.cable.mesh.coarse_length='0.6 m' "
+/* a selection and a landing of seconds */
+#define MANY "--set surrogate.folds=100 "
+#define FINE                                                                                       \
+    " --set landing.solver.airframe_step='5e-7 s' --set landing.solver.contact_step='5e-7 s' "
 #define SMALL REFERENCE " --set campaign.samples=4 "
 
 /// A failure of every verb, and what it must end with.
@@ -65,7 +72,17 @@ static void every_long_verb_obeys_every_signal(void** state) {
         "campaign " REFERENCE " --set campaign.samples=100000 -o %/c",
         "study " REFERENCE " --set campaign.samples=100000 -o %/s",
         "calibrate " REFERENCE " studies/reference/calibration.yaml -o %/found.yaml",
+        "land " REFERENCE FINE,
+        "rig nose-drop " REFERENCE " --set rigs.nose_drop.step='1e-7 s' -o %/r",
+        "sweep " REFERENCE FINE "--key landing.pitch --values '0..8 deg' -o %/w",
+        "replay " REFERENCE FINE "0 -o %/one",
+        "fit " REFERENCE " " COARSE MANY "-o %/few --again",
+        "reliability " REFERENCE " " COARSE "--set reliability.samples=1e10 -o %/few",
     };
+    assert_int_equal(bolter(f, "campaign " REFERENCE FINE "--set campaign.samples=1 -o %/one"), 0);
+    assert_int_equal(bolter(f, "campaign " REFERENCE " " COARSE "--set campaign.samples=300 "
+                               "-o %/few"),
+                     0);
     for (size_t v = 0; v < sizeof verbs / sizeof verbs[0]; ++v)
         for (size_t s = 0; s < sizeof signals / sizeof signals[0]; ++s) {
             char line[1024];
@@ -122,12 +139,47 @@ static void a_campaign_outlives_impossible_points(void** state) {
     assert_has(f->err, "more than max_failed = 0.01 allows");
 }
 
+/// Samples that reach where no aircraft is, though the campaign does not: the table is written, and
+/// the high-fidelity runs that failed are counted and said, again at the next call.
+static void too_many_failed_checks_end_the_analysis(void** state) {
+    fixture* f = *state;
+    char* study = NULL;
+    assert_int_equal(bt_file_read(REFERENCE, &study, NULL, NULL), BT_OK);
+    char *uncertainty = strstr(study, "uncertainty:\n"), *bounds = strstr(study, "  bounds:");
+    char path[4096];
+    FILE* out = fopen(toy_path(path, f->directory, "study.yaml"), "w");
+    assert_non_null(out);
+    fprintf(out,
+            "%.*suncertainty:\n  aircraft.inertia_yy: {distribution: uniform, "
+            "lower: 200000 kg m2, upper: 529000 kg m2}\n%.*s  bounds:\n"
+            "    aircraft.inertia_yy: [360000 kg m2, 529000 kg m2]\n%s",
+            (int)(uncertainty - study), study, (int)(bounds - strchr(uncertainty, '\n') - 1),
+            strchr(uncertainty, '\n') + 1, strchr(bounds, '\n') + 1);
+    fclose(out);
+    free(study);
+    assert_int_equal(bolter(f, "--version; cp studies/reference/aircraft.yaml "
+                               "studies/reference/deck.yaml %"),
+                     0);
+    for (int again = 0; again < 2; ++again) {
+        assert_int_equal(bolter(f, "study %/study.yaml -q -o %/s " COARSE
+                                   "--set campaign.samples=48 --set reliability.samples=2000 "
+                                   "--set reliability.truth_runs=4"),
+                         4);
+        assert_has(f->err,
+                   "high-fidelity runs failed, more than campaign.max_failed = 0.01 allows; "
+                   "the first: ");
+        assert_has(f->err, "aircraft.inertia_yy");
+        free(read_text(f, "s/reliability.json"));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(every_failure_says_why),
         TEST(every_long_verb_obeys_every_signal),
         TEST(closed_streams_lead_into_no_file),
         TEST(a_campaign_outlives_impossible_points),
+        TEST(too_many_failed_checks_end_the_analysis),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
