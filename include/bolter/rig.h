@@ -14,7 +14,7 @@ typedef struct bt_rig_metric {
     const char* unit;     ///< SI, as written: "m"; "" for ratios
     double value;         ///< NAN where it does not exist
     double reference;     ///< measured value that the study gives; NAN where it gives none
-    double error_percent; ///< of value against reference; NAN without a reference
+    double error_percent; ///< difference of value from reference; NAN without a reference
     bool accepted;        ///< no reference, or an error within the study's tolerance
 } bt_rig_metric;
 

@@ -19,7 +19,7 @@ typedef struct bt_fit_report {
     bool constant;          ///< every landing was of one kind
     double C, gamma;
     int support_vectors;
-    double seconds; ///< of selection and training
+    double seconds; ///< time of selection and training
 } bt_fit_report;
 
 /// What to do. Set size to sizeof(bt_fit_def).

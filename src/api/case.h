@@ -14,7 +14,7 @@ typedef enum bt_case_source { BT_CASE_FILE, BT_CASE_RIGS, BT_CASE_TEXT } bt_case
 
 struct bt_case {
     bt_study study;
-    bt_lander* lander; ///< of bt_case_land; created with the case
+    bt_lander* lander; ///< runs bt_case_land; created with the case
     bt_case_source source;
     char *name, *text; ///< file or name; the text of BT_CASE_TEXT. Owned
     int set_count;
@@ -22,9 +22,9 @@ struct bt_case {
     bt_message* message;
     void* user;
     bool landed;            ///< last holds a landing
-    bt_landing_result last; ///< of bt_case_land
+    bt_landing_result last; ///< result of the latest bt_case_land
     bool fitted;            ///< surrogate holds one
-    bt_surrogate surrogate; ///< of bt_case_fit
+    bt_surrogate surrogate; ///< surrogate of the latest bt_case_fit
 };
 
 /// Copies what a caller of any version has filled in of a definition that begins with its size; the

@@ -64,7 +64,7 @@ typedef struct bt_field {
     const char* name; ///< key in the study file
     const char* unit; ///< unit token ("mps"; "m__m2" for a table; "" where there is none)
     bt_need need;
-    size_t offset; ///< of the member in its struct
+    size_t offset; ///< offset of the member in its struct
     double fallback, least, greatest;
     const char* const* choices;       ///< CHOICE only
     const struct bt_group* group;     ///< GROUP only
@@ -76,7 +76,7 @@ typedef struct bt_field {
 typedef struct bt_group {
     const char* name; ///< "oleo"
     const char* text; ///< one line: what it describes
-    size_t size;      ///< of the struct
+    size_t size;      ///< bytes of the struct
     const bt_field* fields;
     int field_count;
     /// Optional: what the ranges cannot say (volumes that fit, tables that increase). Adds its
@@ -89,14 +89,14 @@ typedef struct bt_group {
 typedef struct bt_variant {
     const bt_group* const* groups; ///< in the order of type.choices
     int count;
-    size_t size;   ///< of bt_<what>_variant.params
+    size_t size;   ///< bytes of bt_<what>_variant.params
     bt_field type; ///< the key `type`; its choices are the names
 } bt_variant;
 
 /// What every variant's member begins with.
 typedef struct bt_variant_head {
     int type;
-    _Alignas(double) unsigned char params[]; ///< of that type's group
+    _Alignas(double) unsigned char params[]; ///< values of that type's group
 } bt_variant_head;
 
 /* members */

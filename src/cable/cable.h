@@ -103,7 +103,7 @@ typedef struct bt_cable_def {
     double axial_stiffness_N, bending_stiffness_Nm2, twist_stiffness_Nm2; ///< K0
     double axial_damping_Ns, bending_damping_Nm2s, twist_damping_Nm2s;    ///< C0
     double shear_ratio, compression_ratio;
-    double gravity_mps2; ///< of the frame in which a new state starts
+    double gravity_mps2; ///< gravity of the frame in which a new state starts
     bt_cable_end end[2]; ///< at segment 0 and at segment count - 1
     bool deck;           ///< false: no deck
     bt_cable_deck_params deck_contact;
@@ -136,7 +136,7 @@ typedef struct bt_cable_model {
     bt_cable_def def; ///< length_m is NULL
     double radius_m, contact_damping_Npm2ps;
     const double* half_m;          ///< half the unstretched length of a segment
-    const double* mass_kg;         ///< of a segment
+    const double* mass_kg;         ///< mass of each segment
     const double* inverse_mass;    ///< 1/kg
     const double* inverse_tilt;    ///< 1/I_t, 1/(kg m2): about an axis across the segment
     const double* inverse_spin;    ///< 1/I_a - 1/I_t

@@ -4,7 +4,7 @@
 
 #include "cable/cable_kernel.h"
 
-enum { BT_CABLE_STATE_ARRAYS = 42 }; ///< of a state, one double per segment each
+enum { BT_CABLE_STATE_ARRAYS = 42 }; ///< arrays of a state, one double per segment each
 
 /// An end of the rope, and where it stands beside its anchor.
 typedef struct bt_cable_end_point {
@@ -22,7 +22,7 @@ bt_cable_end_point bt_cable_end_point_of(const bt_cable_model* model, const bt_c
 /// Where the rope passes y: the lines of two neighbouring segments, shared.
 typedef struct bt_cable_passage {
     int segment;        ///< the first of the two; -1 beyond the outermost centres
-    double share[2];    ///< of the two segments, together 1
+    double share[2];    ///< shares of the two segments, together 1
     double point[2][3]; ///< each segment's line at y
     double rate[2][3];  ///< velocity of the material point there
 } bt_cable_passage;

@@ -70,12 +70,12 @@ typedef struct bt_target {
     char name[192];    ///< "bounce_height, landing.sink_speed 6.3 m/s"
     char typed[64];    ///< the wanted value as typed: its unit is used in reports
     const char* token; ///< unit of what is compared
-    int metric;        ///< row of the metrics of the experiment's kind; not for a curve
-    int experiment_count;
-    int experiments[BT_LIST_MAX]; ///< one, or one per value of a trend
-    double wanted;                ///< SI; not for a trend or a curve
-    double tolerance;             ///< SI, or a share of what is wanted
-    bool relative;                ///< tolerance is a share
+    int metric;        ///< row of the metrics of the simulated case's kind; not for a curve
+    int case_count;
+    int cases[BT_LIST_MAX]; ///< one, or one per value of a trend
+    double wanted;          ///< SI; not for a trend or a curve
+    double tolerance;       ///< SI, or a share of what is wanted
+    bool relative;          ///< tolerance is a share
     double weight;
     bt_measured* measured; ///< curve; owned
     int first_row, row_count;
@@ -87,8 +87,8 @@ typedef struct bt_calibration {
     bool rigs_only;        ///< the study describes no landing
     int parameter_count;
     bt_parameter parameters[BT_PARAMETER_MAX];
-    int experiment_count;
-    bt_simulated_case experiments[BT_CASE_MAX];
+    int case_count;
+    bt_simulated_case cases[BT_CASE_MAX];
     int target_count;
     bt_target targets[BT_TARGET_MAX];
     int row_count;   ///< residuals of all targets

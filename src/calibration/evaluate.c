@@ -16,14 +16,14 @@ bool bt_target_is_one_sided(const bt_target* target) {
 /// What one thread needs for its runs.
 typedef struct scratch {
     bt_lander* lander;
-    bt_parameter_set specimen;
+    bt_parameter_set set;
 } scratch;
 
 /// What the threads share: each run writes what is its own.
 typedef struct shared {
     const bt_calibration* calibration;
     const double* u;
-    int run_count;  ///< points times experiments
+    int run_count;  ///< points times simulated cases
     double* metric; ///< [run_count][BT_CASE_METRIC_MAX]
     double* rows;   ///< rows of curves receive what the model did
     const atomic_int* stop;
@@ -41,26 +41,25 @@ static void report(void* user, bt_severity severity, bt_where where, const char*
 
 // --- one run ----------------------------------------------------------------------------------
 
-/// The base with the parameters of a point and the overrides of an experiment.
-static void prepare(const bt_calibration* c, const double* u, const bt_simulated_case* experiment,
-                    bt_parameter_set* specimen) {
-    *specimen = c->base;
+/// The base with the parameters of a point and the overrides of a simulated case.
+static void prepare(const bt_calibration* c, const double* u, const bt_simulated_case* simulated,
+                    bt_parameter_set* set) {
+    *set = c->base;
     for (int i = 0; i < c->parameter_count; ++i) {
         const bt_parameter* p = &c->parameters[i];
-        bt_field_set(p->field, specimen, p->offset, p->lower + u[i] * (p->upper - p->lower));
+        bt_field_set(p->field, set, p->offset, p->lower + u[i] * (p->upper - p->lower));
     }
-    for (int i = 0; i < experiment->override_count; ++i)
-        bt_field_set(experiment->overrides[i].field, specimen, experiment->overrides[i].offset,
-                     experiment->overrides[i].value);
+    for (int i = 0; i < simulated->override_count; ++i)
+        bt_field_set(simulated->overrides[i].field, set, simulated->overrides[i].offset,
+                     simulated->overrides[i].value);
 }
 
-/// The curves that are measured on an experiment, with the rows their values go to.
-static int find_curves(const bt_calibration* c, int experiment, double* rows,
-                       bt_followed* followed) {
+/// The curves that are measured on a simulated case, with the rows their values go to.
+static int find_curves(const bt_calibration* c, int index, double* rows, bt_followed* followed) {
     int count = 0;
     for (int i = 0; i < c->target_count; ++i) {
         const bt_target* target = &c->targets[i];
-        if (target->kind == BT_TARGET_CURVE && target->experiments[0] == experiment)
+        if (target->kind == BT_TARGET_CURVE && target->cases[0] == index)
             followed[count++] = (bt_followed){target->measured, rows + target->first_row};
     }
     return count;
@@ -71,20 +70,19 @@ static bt_status run_one(void* user, int run, int worker) {
     if (s->stop && atomic_load(s->stop) != 0)
         return BT_ERR_INTERRUPTED;
     const bt_calibration* c = s->calibration;
-    const int point = run / c->experiment_count, index = run % c->experiment_count;
-    const bt_simulated_case* experiment = &c->experiments[index];
+    const int point = run / c->case_count, index = run % c->case_count;
+    const bt_simulated_case* simulated = &c->cases[index];
     bt_diag diag = {.sink = report, .user = s};
-    bt_parameter_set* specimen = &s->scratch[worker].specimen;
+    bt_parameter_set* set = &s->scratch[worker].set;
     bt_followed followed[BT_TARGET_MAX];
     double* metric = s->metric + (size_t)run * BT_CASE_METRIC_MAX;
     const int count =
         find_curves(c, index, s->rows + (size_t)point * (size_t)c->row_count, followed);
-    prepare(c, s->u + (size_t)point * (size_t)c->parameter_count, experiment, specimen);
-    bt_status status =
-        bt_parameter_set_check(specimen, bt_simulated_case_part(experiment->kind), &diag);
+    prepare(c, s->u + (size_t)point * (size_t)c->parameter_count, simulated, set);
+    bt_status status = bt_parameter_set_check(set, bt_simulated_case_part(simulated->kind), &diag);
     if (status == BT_OK)
-        status = bt_simulated_case_run(s->scratch[worker].lander, experiment->kind, specimen,
-                                       metric, followed, count, &diag);
+        status = bt_simulated_case_run(s->scratch[worker].lander, simulated->kind, set, metric,
+                                       followed, count, &diag);
     if (status != BT_ERR_INPUT)
         return status;
     // parameters that do not go together: no value, like a run that diverged
@@ -145,22 +143,21 @@ static double target_rows(const bt_target* t, const double* metric, double* rows
     if (t->kind == BT_TARGET_CURVE)
         return curve_rows(t, rows);
     double value[BT_LIST_MAX];
-    for (int i = 0; i < t->experiment_count; ++i)
-        value[i] = metric[t->experiments[i] * BT_CASE_METRIC_MAX + t->metric];
-    if (t->experiment_count == 1) {
+    for (int i = 0; i < t->case_count; ++i)
+        value[i] = metric[t->cases[i] * BT_CASE_METRIC_MAX + t->metric];
+    if (t->case_count == 1) {
         rows[0] = single_row(t, value[0]);
         return value[0];
     }
-    for (int i = 1; i < t->experiment_count; ++i)
+    for (int i = 1; i < t->case_count; ++i)
         rows[i - 1] = trend_row(t, value[t->kind == BT_TARGET_CONSTANT ? 0 : i - 1], value[i]);
-    return value[t->experiment_count - 1];
+    return value[t->case_count - 1];
 }
 
 static void all_rows(const shared* s, int points, double* got) {
     const bt_calibration* c = s->calibration;
     for (int p = 0; p < points; ++p) {
-        const double* metric =
-            s->metric + (size_t)p * (size_t)c->experiment_count * BT_CASE_METRIC_MAX;
+        const double* metric = s->metric + (size_t)p * (size_t)c->case_count * BT_CASE_METRIC_MAX;
         double* rows = s->rows + (size_t)p * (size_t)c->row_count;
         for (int i = 0; i < c->target_count; ++i) {
             const double value =
@@ -176,7 +173,7 @@ bt_status bt_calibration_evaluate(const bt_calibration* calibration, const doubl
                                   bt_diag* diag) {
     shared s = {.calibration = calibration,
                 .u = u,
-                .run_count = points * calibration->experiment_count,
+                .run_count = points * calibration->case_count,
                 .rows = rows,
                 .stop = stop,
                 .diag = diag};

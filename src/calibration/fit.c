@@ -265,7 +265,7 @@ static void store_values(const search* s, bt_fit* fit) {
     fit->cost = s->cost;
     fit->steps = s->steps;
     fit->evaluations = s->evaluations;
-    fit->landings = s->evaluations * s->c->experiment_count;
+    fit->landings = s->evaluations * s->c->case_count;
 }
 
 static bool allocate(search* s) {

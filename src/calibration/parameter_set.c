@@ -42,11 +42,11 @@ bt_text_nearest bt_parameter_set_nearest(const bt_parameter_set* set, const char
     return s.nearest;
 }
 
-bt_status bt_parameter_set_check(const bt_parameter_set* specimen, bt_parameter_set_part part,
+bt_status bt_parameter_set_check(const bt_parameter_set* set, bt_parameter_set_part part,
                                  bt_diag* diag) {
-    const bt_aircraft_params* a = &specimen->model.aircraft;
+    const bt_aircraft_params* a = &set->model.aircraft;
     if (part == BT_PART_LANDING)
-        return bt_group_check(&bt_model_group, &specimen->model, "", diag);
+        return bt_group_check(&bt_model_group, &set->model, "", diag);
     bt_status status;
     if (part == BT_PART_HOOK)
         status = bt_group_check(&bt_hook_group, &a->hook, "aircraft.hook", diag);
@@ -54,6 +54,6 @@ bt_status bt_parameter_set_check(const bt_parameter_set* specimen, bt_parameter_
         status = bt_group_check(&bt_gear_group, &a->nose_gear, "aircraft.nose_gear", diag);
     else
         status = bt_group_check(&bt_gear_group, &a->main_gear, "aircraft.main_gear", diag);
-    const bt_status rigs = bt_group_check(&bt_rigs_group, &specimen->rigs, "rigs", diag);
+    const bt_status rigs = bt_group_check(&bt_rigs_group, &set->rigs, "rigs", diag);
     return status != BT_OK ? status : rigs;
 }

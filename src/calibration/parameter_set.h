@@ -1,4 +1,4 @@
-/// What an experiment is made on: the model of a landing and the rigs, addressed by one set of
+/// What a simulated case runs on: the model of a landing and the rigs, addressed by one set of
 /// paths ("aircraft.hook.length", "landing.pitch", "rigs.nose_drop.sink_speed").
 #ifndef BT_CALIBRATION_PARAMETER_SET_H
 #define BT_CALIBRATION_PARAMETER_SET_H
@@ -19,7 +19,7 @@ const bt_field* bt_parameter_set_find(const bt_parameter_set* set, const char* p
 /// The path of a number nearest to what was typed.
 bt_text_nearest bt_parameter_set_nearest(const bt_parameter_set* set, const char* typed);
 
-/// What an experiment on a specimen needs of it.
+/// What a simulated case on a parameter set needs of it.
 typedef enum bt_parameter_set_part {
     BT_PART_LANDING, ///< the whole model
     BT_PART_NOSE_GEAR,
@@ -28,7 +28,7 @@ typedef enum bt_parameter_set_part {
 } bt_parameter_set_part;
 
 /// Checks a part, and the rigs where it is not a landing; messages as bt_group_check.
-BT_CHECKED bt_status bt_parameter_set_check(const bt_parameter_set* specimen,
-                                            bt_parameter_set_part part, bt_diag* diag);
+BT_CHECKED bt_status bt_parameter_set_check(const bt_parameter_set* set, bt_parameter_set_part part,
+                                            bt_diag* diag);
 
 #endif

@@ -17,7 +17,7 @@ typedef struct reading {
     bt_reader reader;
     bt_document document;
     bt_calibration* c;
-    bt_status status; ///< of what is no fault of the file: memory
+    bt_status status; ///< what is no fault of the file: memory
 } reading;
 
 // --- paths and values -------------------------------------------------------------------------
@@ -135,9 +135,10 @@ static void read_parameters(reading* r, const bt_node* node, const bt_node* root
         read_parameter(r, child);
 }
 
-// --- experiments ------------------------------------------------------------------------------
+// --- simulated cases
+// ------------------------------------------------------------------------------
 
-/// Reads `under`, a mapping of paths and values, into an experiment; false after errors.
+/// Reads `under`, a mapping of paths and values, into a simulated case; false after errors.
 static bool read_overrides(reading* r, const bt_node* node, const char* path,
                            bt_simulated_case* e) {
     if (!node)
@@ -161,7 +162,7 @@ static bool read_overrides(reading* r, const bt_node* node, const char* path,
     return good;
 }
 
-static bool same_experiment(const bt_simulated_case* a, const bt_simulated_case* b) {
+static bool same_case(const bt_simulated_case* a, const bt_simulated_case* b) {
     if (a->kind != b->kind || a->override_count != b->override_count)
         return false;
     for (int i = 0; i < a->override_count; ++i)
@@ -171,34 +172,33 @@ static bool same_experiment(const bt_simulated_case* a, const bt_simulated_case*
     return true;
 }
 
-/// The number of an experiment, shared with an equal one; -1 when there is no more room.
-static int add_experiment(bt_calibration* c, const bt_simulated_case* e) {
-    for (int i = 0; i < c->experiment_count; ++i)
-        if (same_experiment(&c->experiments[i], e))
+/// The number of a simulated case, shared with an equal one; -1 when there is no more room.
+static int add_case(bt_calibration* c, const bt_simulated_case* e) {
+    for (int i = 0; i < c->case_count; ++i)
+        if (same_case(&c->cases[i], e))
             return i;
-    if (c->experiment_count == BT_CASE_MAX)
+    if (c->case_count == BT_CASE_MAX)
         return -1;
-    c->experiments[c->experiment_count] = *e;
-    return c->experiment_count++;
+    c->cases[c->case_count] = *e;
+    return c->case_count++;
 }
 
-/// Adds the experiment of a target, or one per value of its trend.
-static void add_experiments(reading* r, bt_target* t, const bt_simulated_case* e,
-                            const bt_node* node, const bt_override* over, const double* values,
-                            int count) {
+/// Adds the simulated case of a target, or one per value of its trend.
+static void add_cases(reading* r, bt_target* t, const bt_simulated_case* e, const bt_node* node,
+                      const bt_override* over, const double* values, int count) {
     for (int i = 0; i < count; ++i) {
         bt_simulated_case one = *e;
         if (over) {
             one.overrides[one.override_count] = *over;
             one.overrides[one.override_count++].value = values[i];
         }
-        t->experiments[i] = add_experiment(r->c, &one);
-        if (t->experiments[i] < 0) {
-            bt_reader_error(&r->reader, node->where, "targets: more than %d experiments",
+        t->cases[i] = add_case(r->c, &one);
+        if (t->cases[i] < 0) {
+            bt_reader_error(&r->reader, node->where, "targets: more than %d simulated cases",
                             BT_CASE_MAX);
             return;
         }
-        t->experiment_count = i + 1;
+        t->case_count = i + 1;
     }
 }
 
@@ -316,7 +316,7 @@ static void read_trend(reading* r, bt_target* t, const bt_node* node, const bt_n
         return;
     }
     const int count = read_trend_values(r, node, over, path, &override, values);
-    add_experiments(r, t, e, node, &override, values, count);
+    add_cases(r, t, e, node, &override, values, count);
     t->row_count = count > 0 ? count - 1 : 0;
 }
 
@@ -388,7 +388,7 @@ static void read_curve_target(reading* r, bt_target* t, const bt_node* node, con
     t->token = t->measured->y_token;
     snprintf(place, sizeof place, "%s.tolerance", path);
     read_tolerance(r, tolerance, t->token, place, &t->tolerance, &t->relative);
-    add_experiments(r, t, e, node, NULL, NULL, 1);
+    add_cases(r, t, e, node, NULL, NULL, 1);
 }
 
 /// A target that compares one metric.
@@ -413,7 +413,7 @@ static void read_metric_target(reading* r, bt_target* t, const bt_node* node, bt
         ++wished;
         t->kind = (bt_target_kind)(BT_TARGET_VALUE + i);
         read_wanted(r, t, node, value, path);
-        add_experiments(r, t, e, node, NULL, NULL, 1);
+        add_cases(r, t, e, node, NULL, NULL, 1);
     }
     if (wished != 1)
         bt_reader_error(&r->reader, node->where,

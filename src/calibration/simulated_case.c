@@ -146,11 +146,10 @@ static void track_landing(void* user, const bt_landing_view* view) {
 
 // --- runs -------------------------------------------------------------------------------------
 
-static bt_status run_landing(bt_lander* lander, const bt_parameter_set* specimen, double* metric,
+static bt_status run_landing(bt_lander* lander, const bt_parameter_set* set, double* metric,
                              tracker* t, bt_diag* diag) {
     bt_landing_result result;
-    BT_TRY(
-        bt_lander_run(lander, &specimen->model, &result, t->count ? track_landing : NULL, t, diag));
+    BT_TRY(bt_lander_run(lander, &set->model, &result, t->count ? track_landing : NULL, t, diag));
     if (result.outcome == BT_FAILED)
         bt_diag_add(diag, BT_WARNING, BT_NOWHERE, "a landing diverged: %s, %s at %.4g s",
                     result.failed_element, result.failed_quantity, result.failed_time_s);
@@ -172,15 +171,15 @@ void bt_simulated_case_void(double* metric, const bt_followed* followed, int fol
 }
 
 bt_status bt_simulated_case_run(bt_lander* lander, bt_simulated_case_kind kind,
-                                const bt_parameter_set* specimen, double* metric,
+                                const bt_parameter_set* set, double* metric,
                                 const bt_followed* followed, int followed_count, bt_diag* diag) {
     tracker t = {.followed = followed, .count = followed_count};
     bt_simulated_case_void(metric, followed, followed_count);
     if (kind == BT_CASE_LANDING)
-        return run_landing(lander, specimen, metric, &t, diag);
+        return run_landing(lander, set, metric, &t, diag);
     bt_rig_result result;
-    const bt_status status = bt_rig_run(rig_of(kind), &specimen->model.aircraft, &specimen->rigs,
-                                        &result, followed_count ? track_rig : NULL, &t, diag);
+    const bt_status status = bt_rig_run(rig_of(kind), &set->model.aircraft, &set->rigs, &result,
+                                        followed_count ? track_rig : NULL, &t, diag);
     if (status == BT_OK)
         rig_values(rig_metrics(kind), &result, metric);
     return status == BT_ERR_NUMERIC ? BT_OK : status;

@@ -15,10 +15,10 @@ enum { BT_JOBS_PER_THREAD = 8 };
 /// A job that has left the back end.
 typedef struct bt_finished {
     bt_job job;
-    bt_landing_result result; ///< of status BT_OK
+    bt_landing_result result; ///< valid with status BT_OK
     /// BT_OK; BT_ERR_INTERRUPTED: given up, it may be run again; else what must end the batch
     bt_status status;
-    char message[256]; ///< of a status that ends the batch
+    char message[256]; ///< text of a status that ends the batch
 } bt_finished;
 
 struct bt_backend {

@@ -15,7 +15,7 @@ static const double patience_s = 0.4;
 typedef struct batch {
     const bt_executor* executor;
     const bt_backend* backend;
-    void* state;      ///< of the back end
+    void* state;      ///< the back end's own
     int room;         ///< jobs it may have in hand
     int in_hand;      ///< jobs it has
     bool closed;      ///< no more jobs are given out

@@ -42,7 +42,7 @@ typedef struct bt_executor {
     bt_job_pulse* pulse;           ///< may be NULL
     bt_landing_observer* observer; ///< may be NULL; needs a back end in this process
     bt_job_observed* observed;     ///< its user, for each job
-    void* user;                    ///< of source, sink, pulse and observed
+    void* user;                    ///< handed to source, sink, pulse and observed
     const bt_backend* backend;     ///< NULL: threads
 } bt_executor;
 

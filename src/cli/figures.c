@@ -49,7 +49,7 @@ static bt_status draw_into(const bt_study* study, bt_diag* diag) {
     return status;
 }
 
-static bt_status run(const bt_command* command) {
+static bt_status run_figures(const bt_command* command) {
     bt_diag diag = bt_stderr_diag();
     bt_study study;
     BT_TRY(bt_command_study(command, &study));
@@ -70,5 +70,5 @@ const bt_verb bt_verb_figures = {
     .least_words = 1,
     .most_words = 1,
     .outputs = BT_OUTPUT_DIRECTORY,
-    .run = run,
+    .run = run_figures,
 };

@@ -143,7 +143,8 @@ const bt_verb bt_verb_reliability = {
     .summary = "probability of engagement for every condition, with intervals",
     .arguments = "STUDY.yaml",
     .text =
-        "Draws the study's samples for every condition, asks the surrogate, and checks it "
+        "Draws the study's samples for every condition, predicts their outcomes with the "
+        "surrogate, and checks it "
         "with fresh landings of the full model drawn from the same distributions. Each "
         "condition has the surrogate's estimate with its sampling interval, the "
         "disagreements, and the corrected estimate with an interval that covers both. Trains "

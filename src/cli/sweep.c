@@ -19,7 +19,7 @@ enum { LABEL_SIZE = 48, CORNERS = 3 };
 
 /// What to sweep, and what the paper says of it.
 typedef struct plan {
-    char name[160]; ///< of the figure
+    char name[160]; ///< name of the figure
     const char *key, *values, *title;
     const char* paper;           ///< number of the paper's figure
     const char* reference;       ///< what the paper prints; NULL: nothing

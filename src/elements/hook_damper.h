@@ -19,7 +19,7 @@ BT_DECLARE_VARIANT(hook_damper, BT_HOOK_DAMPER_PARAMS_SIZE)
 
 /// One law.
 typedef struct bt_hook_damper_type {
-    size_t data_size; ///< of its constants, at most BT_HOOK_DAMPER_DATA_SIZE
+    size_t data_size; ///< bytes of its constants, at most BT_HOOK_DAMPER_DATA_SIZE
     /// From checked parameters; cannot fail.
     void (*prepare)(const void* params, void* data);
     /// F(s, s'), N. At rest it is the derivative of the energy; what the rate adds never gives

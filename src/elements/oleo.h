@@ -59,7 +59,7 @@ typedef struct bt_gas_stage {
     double other;    ///< C_2 = V_02 P_02^(1/n_2); 0 where both chambers have one exponent
     double volume;   ///< all gas volume with the strut extended
     double pressure; ///< at which the stage begins
-    double energy;   ///< of the gas when it begins
+    double energy;   ///< energy of the gas when it begins
 } bt_gas_stage;
 
 /// A strut ready to be evaluated: constants of the formulas, plain data.

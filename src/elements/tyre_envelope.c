@@ -32,7 +32,7 @@ double bt_tyre_equivalent_deflection(double radius_m, double area_m2) {
 
 /// The ground as seen from the axle: what the rays run into.
 typedef struct ground {
-    double radius, height; ///< of the disc; of the axle above the deck
+    double radius, height; ///< radius of the disc; height of the axle above the deck
     const bt_bump* bumps;
     int count;
 } ground;

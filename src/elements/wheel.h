@@ -9,7 +9,7 @@
 /// BT_GROUND.
 typedef struct bt_wheel {
     bt_tyre tyre;
-    double deck_velocity_mps[3]; ///< of the deck's surface (a rig's belt); level
+    double deck_velocity_mps[3]; ///< velocity of the deck's surface (a rig's belt); level
 } bt_wheel;
 
 enum { BT_WHEEL_DEFLECTION, BT_WHEEL_NORMAL, BT_WHEEL_FORWARD, BT_WHEEL_LATERAL, BT_WHEEL_OUTPUTS };

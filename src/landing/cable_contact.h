@@ -20,8 +20,8 @@ typedef struct bt_moving_body {
     double now_m[3];      ///< position at the present cable step
     double now_mps[3];    ///< velocity
     double now_rotation[9];
-    double impulse_Ns[3]; ///< of the forces so far
-    double moment_Nms[3]; ///< of their torques about the centre of mass, world
+    double impulse_Ns[3]; ///< impulse of the forces so far
+    double moment_Nms[3]; ///< moment of their torques about the centre of mass, world
 } bt_moving_body;
 
 /// Moves the body to a time after the start of the airframe step. Turns it by its spin (first
@@ -31,7 +31,7 @@ void bt_moving_body_to(bt_moving_body* body, double after_s);
 /// Where wheels and hook slide over the cable in one cable step.
 typedef struct bt_slides {
     int count;    ///< noted
-    int resolved; ///< of `at`, from the start: those of the last bt_slides_resolve
+    int resolved; ///< entries of `at`, from the start: those of the last bt_slides_resolve
     bt_cable_slide at[BT_SLIDES_MAX];
     bt_moving_body* body[BT_SLIDES_MAX];
 } bt_slides;
@@ -47,7 +47,7 @@ void bt_slides_resolve(bt_slides* slides, const bt_cable_model* model, bt_cable_
 /// that it bounds.
 typedef struct bt_wheel_contact {
     const bt_tyre* tyre;
-    double width_m;  ///< of all tyres of the axle together
+    double width_m;  ///< width of all tyres of the axle together
     double friction; ///< tyre on cable
     double slip_speed_mps;
     double normal_N; ///< on the cable at the last evaluation

@@ -13,9 +13,9 @@ typedef struct bt_hops {
     bool touched;         ///< the hook has touched the deck at least once
     bool airborne;        ///< after a touch
     double leave_x_m;     ///< where the present bounce left the deck
-    double last_x_m;      ///< of the shoe, at the latest step
-    double top_m;         ///< of the present bounce
-    double impact_peak_N; ///< of the contact that preceded it
+    double last_x_m;      ///< place of the shoe at the latest step
+    double top_m;         ///< top of the present bounce
+    double impact_peak_N; ///< peak load of the contact before it
 } bt_hops;
 
 /// After an airframe step: the shoe's place, clearance and deck force; whether a wire has touched

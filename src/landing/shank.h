@@ -18,7 +18,7 @@
 /// One rigid part of the hook.
 typedef struct bt_shank_part {
     double mass_kg;
-    double centre_m;           ///< of mass, from the pivot along the straight shank
+    double centre_m;           ///< centre of mass, from the pivot along the straight shank
     double inertia_kgm2;       ///< about that centre, across the shank
     double axial_inertia_kgm2; ///< about the shank
 } bt_shank_part;

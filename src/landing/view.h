@@ -83,7 +83,7 @@ typedef struct bt_view_column {
     const char* quantity; ///< "nose_stroke"
     const char* unit;     ///< token
     const char* text;
-    size_t offset; ///< of a double in bt_landing_view
+    size_t offset; ///< offset of a double in bt_landing_view
 } bt_view_column;
 
 extern const bt_view_column bt_view_columns[];

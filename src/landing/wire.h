@@ -31,7 +31,7 @@ typedef struct bt_wire_state {
     bt_wheel_contact wheel[BT_LEG_COUNT];
     bt_hook_contact hook;
     bt_meeting meeting;
-    double clearance_m[BT_PART_COUNT]; ///< of the parts from the cable
+    double clearance_m[BT_PART_COUNT]; ///< distance of each part from the cable
     bool clearer[BT_PART_COUNT];       ///< cannot touch the cable in the present step
     bool awake;                        ///< the cable has left its equilibrium
     bool loaded;                       ///< parts have put loads on the cable

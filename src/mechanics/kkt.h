@@ -31,7 +31,7 @@ typedef struct bt_kkt_joint {
 
 typedef struct bt_kkt_edge {
     int node;   ///< eliminated later than its owner
-    int offset; ///< of the block, dim(node) x dim(owner) row-major
+    int offset; ///< place of the block, dim(node) x dim(owner) row-major
 } bt_kkt_edge;
 
 typedef struct bt_kkt_update {
@@ -41,7 +41,7 @@ typedef struct bt_kkt_update {
 
 typedef struct bt_kkt_node {
     int dim;
-    int start;    ///< of its part of a vector (bodies first, then constraint rows)
+    int start;    ///< place of its part in a vector (bodies first, then constraint rows)
     int diagonal; ///< offset of its block, dim x dim row-major, lower part used
     int edge_first, edge_count;
     int update_first, update_count;
@@ -58,7 +58,7 @@ typedef struct bt_kkt {
     int body_count, joint_count, node_count;
     int order;          ///< rows of K
     int factor_size;    ///< doubles
-    int nonzeros;       ///< of the lower triangle of K by blocks, diagonal blocks included
+    int nonzeros;       ///< entries of the lower triangle of K by blocks, diagonal blocks included
     int fill_blocks;    ///< blocks of L that K does not have
     bt_kkt_node* nodes; ///< bodies 0 .. body_count - 1, then joints
     int* sequence;      ///< [node_count]

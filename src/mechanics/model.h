@@ -30,8 +30,8 @@ struct bt_system {
     bt_status add_status; ///< what went wrong while adding, kept for bt_system_assemble
     bool assembled;
     int constraint_count, redundant_count, output_count;
-    double smallest_scale; ///< of all joints' lengths, m
-    int refinements;       ///< of each solve; 0 when no joint closes a loop
+    double smallest_scale; ///< least of all joints' lengths, m
+    int refinements;       ///< refinements of each solve; 0 when no joint closes a loop
     bt_kkt kkt;
 };
 

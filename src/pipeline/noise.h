@@ -57,10 +57,10 @@ double bt_noise_engaged_share(const bt_noise_landing* landings, int64_t count);
 
 /// What two runs of the same landings differ in.
 typedef struct bt_noise_difference {
-    int64_t flips;                     ///< landings with another outcome
-    int64_t failed;                    ///< of the second run
-    int64_t wrong_side;                ///< of the second run: margin and outcome disagree
-    double margin_median_m;            ///< of |margin - margin|, over landings that have both
+    int64_t flips;          ///< landings with another outcome
+    int64_t failed;         ///< landings of the second run that failed
+    int64_t wrong_side;     ///< landings of the second run whose margin and outcome disagree
+    double margin_median_m; ///< median of |margin - margin|, over landings that have both
     double margin_p90_m, margin_p99_m; ///< its 90th and 99th percentile
     double wall_s;                     ///< mean per landing of the second run
 } bt_noise_difference;

@@ -14,13 +14,13 @@ typedef struct bt_hook_path {
 } bt_hook_path;
 
 typedef struct bt_sweep_row {
-    double value; ///< of the key, SI
+    double value; ///< value of the key, SI
     bt_landing_result result;
     bt_hook_path path;
 } bt_sweep_row;
 
 typedef struct bt_sweep {
-    const bt_field* field; ///< of the key
+    const bt_field* field; ///< row of the key
     int count;
     bt_sweep_row* rows; ///< [count] in the order of the values
 } bt_sweep;

@@ -21,8 +21,8 @@ typedef struct bt_stratum {
     int64_t pool;  ///< samples of the pool in it
     int planned;   ///< true runs to make
     int runs;      ///< true runs made, failed ones included
-    int failed;    ///< of them, without an outcome
-    int disagreed; ///< of them, with an outcome other than the surrogate's
+    int failed;    ///< runs among them without an outcome
+    int disagreed; ///< runs with an outcome other than the surrogate's
 } bt_stratum;
 
 typedef struct bt_check {

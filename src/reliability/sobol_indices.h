@@ -24,7 +24,7 @@ typedef struct bt_index {
 
 typedef struct bt_sobol_result {
     int dims;
-    int64_t evaluations; ///< of f
+    int64_t evaluations; ///< calls of f
     double mean, variance;
     bt_index first[BT_INPUT_MAX], total[BT_INPUT_MAX];
 } bt_sobol_result;

@@ -27,14 +27,14 @@ typedef struct bt_series {
 } bt_series;
 
 typedef struct bt_figure {
-    const char* name;                                  ///< of the files
+    const char* name;                                  ///< name of the files, without suffix
     const char *title, *x_label, *y_label, *key_title; ///< may be NULL
-    const char* y2_label;                              ///< of a second y axis; NULL: there is none
-    bool ordered;        ///< the series are steps of one quantity: colours from dark to light
-    bool key_below;      ///< the key lies under the figure instead of beside it
-    bool from_zero;      ///< the y axis begins at 0
-    bool x_free;         ///< the x axis begins where the data do, not at 0
-    double x_max, y_max; ///< ends of the axes; 0: found by gnuplot
+    const char* y2_label; ///< label of a second y axis; NULL: there is none
+    bool ordered;         ///< the series are steps of one quantity: colours from dark to light
+    bool key_below;       ///< the key lies under the figure instead of beside it
+    bool from_zero;       ///< the y axis begins at 0
+    bool x_free;          ///< the x axis begins where the data do, not at 0
+    double x_max, y_max;  ///< ends of the axes; 0: found by gnuplot
     int series_count;
     const bt_series* series;
 } bt_figure;

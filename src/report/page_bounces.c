@@ -28,7 +28,7 @@ static const struct {
 };
 enum { PLAN_COUNT = sizeof plans / sizeof plans[0], POINTS_MOST = 160 };
 
-static const double shown_m = 10; ///< of the way along the deck
+static const double shown_m = 10; ///< length of the way along the deck
 
 static void write_curve(bt_json* json, const bt_sweep_row* row, double factor, const char* unit) {
     char label[64];

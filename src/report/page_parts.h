@@ -24,7 +24,7 @@ typedef struct bt_miss_group {
     bt_mode mode;
     bool bounced;
     int axis;               ///< whose range tells them best from all landings
-    double least, greatest; ///< of that input: the middle nine tenths of the group, SI
+    double least, greatest; ///< range of that input: the middle nine tenths of the group, SI
     int count, typical;     ///< landings in it; index of the one nearest to all others' middle
 } bt_miss_group;
 

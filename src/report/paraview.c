@@ -17,7 +17,7 @@ typedef struct scene {
     const bt_playback* p;
     const bt_model_params* model;
     const bt_solid* solid;
-    char folder[BT_FILE_PATH_MAX]; ///< of the .vtp files
+    char folder[BT_FILE_PATH_MAX]; ///< folder of the .vtp files
     size_t row;                    ///< that is being written
     bt_diag* diag;
 } scene;

@@ -7,9 +7,9 @@
 #include "report/json.h"
 
 enum {
-    BT_PLAYBACK_ROWS_ALONE = 560, ///< of a landing alone in its page: at most 0.6 MB
-    BT_PLAYBACK_ROWS_AMONG = 220, ///< of one of ten
-    BT_PLAYBACK_NODES = 72,       ///< of cable, in the page
+    BT_PLAYBACK_ROWS_ALONE = 560, ///< rows of a landing alone in its page: at most 0.6 MB
+    BT_PLAYBACK_ROWS_AMONG = 220, ///< rows of a landing among ten
+    BT_PLAYBACK_NODES = 72,       ///< nodes of cable, in the page
 };
 
 typedef struct bt_playback bt_playback;

@@ -10,8 +10,8 @@ enum {
     BT_CURVE_LIP, ///< x, y, z
     BT_CURVE_HOOK_HEIGHT = 3,
     BT_CURVE_HOOK_DECK,
-    BT_CURVE_CABLE_HEIGHT, ///< of its centre, in the hook's plane
-    BT_CURVE_CABLE_AHEAD,  ///< of the lip, there
+    BT_CURVE_CABLE_HEIGHT, ///< height of its centre, in the hook's plane
+    BT_CURVE_CABLE_AHEAD,  ///< distance ahead of the lip, there
     BT_CURVE_CABLE_TENSION,
     BT_CURVE_CABLE_HOOK,      ///< x, y, z: force of the cable on the hook
     BT_CURVE_TYRE = 11,       ///< nose, left, right

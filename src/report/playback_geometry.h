@@ -17,7 +17,7 @@ int bt_hook_outline(const bt_profile* profile, double reach_m, double outline[BT
 /// stations of gear and hook.
 typedef struct bt_fuselage_sketch {
     double nose_m, tail_m, radius_m;
-    double height_m; ///< of the tube's axis: the hook's pivot lies at its underside
+    double height_m; ///< height of the tube's axis: the hook's pivot lies at its underside
 } bt_fuselage_sketch;
 
 bt_fuselage_sketch bt_fuselage_of(const bt_airframe* airframe);

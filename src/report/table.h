@@ -18,10 +18,11 @@ typedef struct bt_column {
     const char* head; ///< "height"; NULL: a column that people do not see
     const char* unit; ///< "mm", "%"; "" for none. Belongs to value * scale
     double scale;     ///< 0 is 1
-    int decimals;     ///< of what people read; for an interval the least number of them
-    bool interval;    ///< its cells have 95 % limits: NAME_least and NAME_greatest in CSV,
-                      ///< [least, greatest] under NAME_ci95 in JSON
-    bool flag;        ///< its cells are yes or no: true or false in JSON
+    int decimals;  ///< digits after the point that people read; for an interval the least number of
+                   ///< them
+    bool interval; ///< its cells have 95 % limits: NAME_least and NAME_greatest in CSV,
+                   ///< [least, greatest] under NAME_ci95 in JSON
+    bool flag;     ///< its cells are yes or no: true or false in JSON
 } bt_column;
 
 typedef struct bt_report_table bt_report_table;

@@ -58,7 +58,7 @@ typedef struct rebound_rig {
     bt_shoe shoe_contact;
     int shoe, damper, buffer;
     double lift_N;
-    double start_x_m; ///< of the head's lowest point
+    double start_x_m; ///< place of the head's lowest point
 } rebound_rig;
 
 /// K of two Hertz springs in series: (K_1^-2/3 + K_2^-2/3)^-3/2, the approaches add up.

@@ -106,7 +106,7 @@ typedef struct bt_metric {
     const char* unit; ///< token: "m"
     double value;
     double reference;     ///< NAN where there is none
-    double error_percent; ///< of the value against the reference; NAN where there is none
+    double error_percent; ///< difference of the value from the reference; NAN where there is none
     double tolerance;     ///< error that is accepted, as a share; NAN where there is no reference
     bool accepted;        ///< no reference, or an error within its tolerance
 } bt_metric;

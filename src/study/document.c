@@ -58,9 +58,9 @@ bt_node* bt_node_child(const bt_node* node, const char* key) {
 typedef struct parser {
     yaml_parser_t yaml;
     bt_document* document;
-    bt_where where; ///< of the text; line 0: of every node too
+    bt_where where; ///< place of the text; line 0: that of every node too
     bt_diag* diag;
-    bt_status status; ///< of the first thing that stops the parser
+    bt_status status; ///< status of the first thing that stops the parser
 } parser;
 
 static bt_where place(const parser* p, yaml_mark_t mark) {

@@ -24,7 +24,7 @@ typedef struct reading {
     bt_reader reader;
     bt_document document;
     bt_document names; ///< texts of `where.file`; outlive the reading
-    const char* path;  ///< of the study file
+    const char* path;  ///< path of the study file
     bool files;        ///< other files may be named
     bool rigs_will_do; ///< a description of rigs is enough
     bt_node* root;

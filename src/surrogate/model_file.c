@@ -138,7 +138,7 @@ typedef struct reader {
     const char* file;
     char *at, *end;
     int line;
-    char* word[WORD_MAX]; ///< of the current line
+    char* word[WORD_MAX]; ///< words of the current line
     int count;
     bt_diag* diag;
 } reader;

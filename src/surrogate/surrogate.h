@@ -27,7 +27,7 @@ typedef struct bt_training_set {
 typedef struct bt_grid_point {
     double C, gamma;
     int trained_on; ///< landings of the cross-validation; 0: not tried, its row had stopped gaining
-    int correct;    ///< of them, right when left out
+    int correct;    ///< samples among them that are right when left out
     double loss;    ///< mean cross-entropy of the predictions (loss.h); INFINITY: too hard to train
     int round;      ///< 1, 2, 3: how many rounds it was in
 } bt_grid_point;
@@ -40,7 +40,7 @@ typedef struct bt_surrogate_scores {
     int holdout_count, holdout_correct;
     bt_interval holdout_ci95; ///< Clopper-Pearson, of the hold-out accuracy
     int confusion[2][2];      ///< hold-out counts [truth][answer], 0 missed, 1 engaged
-    int cv_count, cv_correct; ///< of the chosen grid point
+    int cv_count, cv_correct; ///< counts of the chosen grid point
     double seconds;           ///< model selection and training, wall clock
 } bt_surrogate_scores;
 
@@ -69,8 +69,8 @@ typedef struct bt_grid {
 /// What model selection chooses: everything that a fit needs beside the landings.
 typedef struct bt_hyperparameters {
     double C, gamma;
-    double weight[BT_INPUT_MAX]; ///< of the inputs; powers of sqrt 2
-    int cv_count, cv_correct;    ///< of the chosen grid point
+    double weight[BT_INPUT_MAX]; ///< weights of the inputs; powers of sqrt 2
+    int cv_count, cv_correct;    ///< counts of the chosen grid point
 } bt_hyperparameters;
 
 /// Model selection: standardises the landings, weighs the inputs (relevance.h) and chooses

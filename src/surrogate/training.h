@@ -17,7 +17,8 @@ typedef struct bt_training {
     int train[2];           ///< training landings of class +1, -1
     int* holdout;           ///< indices of the landings kept apart
     int holdout_count;
-    double centre[BT_INPUT_MAX], scale[BT_INPUT_MAX];   ///< of the training landings, SI
+    double centre[BT_INPUT_MAX],
+        scale[BT_INPUT_MAX]; ///< mean and spread of the training landings, SI
     double least[BT_INPUT_MAX], greatest[BT_INPUT_MAX]; ///< their box, SI
 } bt_training;
 
@@ -33,7 +34,7 @@ void bt_training_weigh(bt_training* t, const double* weight);
 
 /// How one training ended.
 typedef struct bt_svm_effort {
-    long iterations; ///< of LIBSVM
+    long iterations; ///< iterations of LIBSVM
     bool gave_up;    ///< it stopped at its limit: 10^7, or 100 per landing
 } bt_svm_effort;
 
