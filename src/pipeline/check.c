@@ -84,7 +84,8 @@ static bt_status try_ends(const bt_study* study, bt_diag* diag) {
         const bt_input* input = &study->inputs[i / 2];
         bt_model_params model = study->model;
         double ends[2];
-        if (!input->bounded && !input->random)
+        const bool axis = !bt_design_is_random(study->campaign.design) && input->bounded;
+        if (!axis && !input->random)
             continue;
         ends_of(study, input, ends);
         bt_field_set(input->field, &model, input->offset, ends[i % 2]);

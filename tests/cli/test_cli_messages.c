@@ -125,17 +125,25 @@ static void a_campaign_outlives_impossible_points(void** state) {
     assert_int_equal(bolter(f, "--version; cp studies/reference/aircraft.yaml "
                                "studies/reference/deck.yaml %"),
                      0);
-    assert_int_equal(bolter(f, "check %/study.yaml"), 0);
+    assert_int_equal(bolter(f, "check %/study.yaml --set campaign.design=sobol"), 0);
     assert_has(f->err, "warning: aircraft.mass: at 200 kg, where its values end");
     assert_has(f->err, "not more than the mass of gear and hook, 527.9 kg");
-    assert_int_equal(bolter(f, "check %/study.yaml --set aircraft.inertia_yy='3.58e5 kg m2'"), 3);
+    assert_int_equal(bolter(f, "check %/study.yaml --set campaign.design=sobol --set "
+                               "aircraft.inertia_yy='3.58e5 kg m2'"),
+                     3);
     assert_has(f->err, "aircraft.inertia_yy: 358000 kg m^2 is outside 358572 .. 529932 kg m^2");
-    assert_int_equal(bolter(f, "campaign %/study.yaml -o %/c --set campaign.samples=16 "
-                               "--set campaign.max_failed=0.5"),
-                     0);
+    assert_int_equal(
+        bolter(f,
+               "campaign %/study.yaml -o %/c --set campaign.design=sobol --set campaign.samples=16 "
+               "--set campaign.max_failed=0.5"),
+        0);
     assert_has(f->out, "16 of 16 landings");
     assert_null(strstr(f->out, " 0 failed"));
-    assert_int_equal(bolter(f, "campaign %/study.yaml -o %/d --set campaign.samples=16"), 4);
+    assert_int_equal(
+        bolter(
+            f,
+            "campaign %/study.yaml -o %/d --set campaign.design=sobol --set campaign.samples=16"),
+        4);
     assert_has(f->err, "more than max_failed = 0.01 allows");
 }
 
@@ -162,7 +170,8 @@ static void too_many_failed_checks_end_the_analysis(void** state) {
                      0);
     for (int again = 0; again < 2; ++again) {
         assert_int_equal(bolter(f, "study %/study.yaml -q -o %/s " COARSE
-                                   "--set campaign.samples=48 --set reliability.samples=2000 "
+                                   "--set campaign.design=sobol --set campaign.samples=48 --set "
+                                   "reliability.samples=2000 "
                                    "--set reliability.truth_runs=4"),
                          4);
         assert_has(f->err,
