@@ -19,8 +19,8 @@ void bench_calibration(void) {
             int met = 0;
             for (int i = 0; i < calibration.target_count; ++i)
                 met += fit.targets[i].met;
-            bench_row("calibration, 6 parameters and 10 targets, all cores",
-                      bench_now_s() - begin, "s", NULL, 0, 60);
+            bench_row("calibration, 6 parameters and 10 targets, all cores", bench_now_s() - begin,
+                      "s", NULL, 0, 60);
             printf("    %d of %d targets met, %d runs of the model\n", met,
                    calibration.target_count, fit.landings);
         }

@@ -9,7 +9,8 @@
 
 typedef enum bt_severity { BT_NOTE, BT_WARNING, BT_ERROR } bt_severity;
 
-/// A place in a file. file may be NULL (no place); line 0: the whole file. Lines and columns from 1.
+/// A place in a file. file may be NULL (no place); line 0: the whole file. Lines and columns
+/// from 1.
 typedef struct bt_where {
     const char* file;
     int line, column;

@@ -221,9 +221,9 @@ double bt_distribution_log_density(const bt_distribution* d, double x) {
     case BT_NORMAL:
         return log_normal_density((x - d->mean) / d->sd, d->sd);
     case BT_TRUNCATED_NORMAL:
-        return x < d->lower || x > d->upper ? -INFINITY
-                                            : log_normal_density((x - d->mean) / d->sd, d->sd) -
-                                                  log(truncated_share(d));
+        return x < d->lower || x > d->upper
+                   ? -INFINITY
+                   : log_normal_density((x - d->mean) / d->sd, d->sd) - log(truncated_share(d));
     case BT_LOGNORMAL:
         if (x <= 0)
             return -INFINITY;

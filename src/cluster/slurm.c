@@ -49,7 +49,7 @@ static const script scripts[] = {
      "exit $code\n"},
     {"results.sh",
      "#!/bin/sh\n" WRITTEN "# Puts the parts together; then everything else of the study: landings "
-                           "that are missing, the\n"
+     "that are missing, the\n"
      "# classifier, the reliability of every condition.\n"
      "#SBATCH --job-name=bolter-results\n"
      "#SBATCH --cpus-per-task=1\n"

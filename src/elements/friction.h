@@ -1,6 +1,7 @@
-/// Coulomb friction without stick, for seals and bearings, the shoe on the deck, and wheels and hook
-/// on the cable. Two contacts have their own: the cable on the deck v / sqrt(v^2 + v_s^2), smooth
-/// for the vector kernel (cable/deck.h), and the tyre on the deck its slip curve (elements/tyre.h).
+/// Coulomb friction without stick, for seals and bearings, the shoe on the deck, and wheels and
+/// hook on the cable. Two contacts have their own: the cable on the deck v / sqrt(v^2 + v_s^2),
+/// smooth for the vector kernel (cable/deck.h), and the tyre on the deck its slip curve
+/// (elements/tyre.h).
 #ifndef BT_ELEMENTS_FRICTION_H
 #define BT_ELEMENTS_FRICTION_H
 

@@ -1,7 +1,7 @@
 #include "study/study.h"
 
-const char* const bt_design_names[] = {"sobol", "latin_hypercube", "full_factorial", "monte_carlo",
-                                       "conditions", NULL};
+const char* const bt_design_names[] = {"sobol",       "latin_hypercube", "full_factorial",
+                                       "monte_carlo", "conditions",      NULL};
 
 bool bt_design_is_random(int design) {
     return design == BT_DESIGN_MONTE_CARLO || design == BT_DESIGN_CONDITIONS;

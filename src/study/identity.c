@@ -108,8 +108,7 @@ static void write_design(FILE* out, const bt_study* study) {
 /// The conditions that the design draws from, and how.
 static void write_conditions(FILE* out, const bt_study* study) {
     for (int i = 0; i < study->condition_count; ++i) {
-        fprintf(out, "reliability.conditions.%s =",
-                study->inputs[study->conditions[i].input].path);
+        fprintf(out, "reliability.conditions.%s =", study->inputs[study->conditions[i].input].path);
         write_number(out, study->conditions[i].mean);
         fputc('\n', out);
     }

@@ -111,7 +111,8 @@ static void titles_are_text(void** state) {
     static const char* const sets[] = {"title=</script><script>alert(1)</script>"};
     assert_int_equal(bt_study_read("studies/reference/study.yaml", sets, 1, &study, NULL), BT_OK);
     assert_int_equal(bt_lander_create(&lander), BT_OK);
-    assert_int_equal(bt_playback_create(BT_PLAYBACK_ROWS_ALONE, BT_PLAYBACK_NODES, &playback), BT_OK);
+    assert_int_equal(bt_playback_create(BT_PLAYBACK_ROWS_ALONE, BT_PLAYBACK_NODES, &playback),
+                     BT_OK);
     assert_int_equal(
         bt_lander_run(lander, &study.model, &result, bt_playback_observe, playback, NULL), BT_OK);
     const bt_page_subject subject = {&study, "study.yaml", "", NULL};

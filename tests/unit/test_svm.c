@@ -72,8 +72,8 @@ static bt_surrogate train(const bt_training_set* set, const bt_surrogate_params*
     return s;
 }
 
-/// Eqs. 19, 20: two points, one of each kind: f(z) = +-1 at them gives alpha = 1 / (1 - exp(-4 gamma)). LIBSVM
-/// keeps kernel values in single precision, hence the tolerance.
+/// Eqs. 19, 20: two points, one of each kind: f(z) = +-1 at them gives alpha = 1 / (1 - exp(-4
+/// gamma)). LIBSVM keeps kernel values in single precision, hence the tolerance.
 static void eq19_two_points_have_the_closed_form_solution(void** state) {
     (void)state;
     const double x[] = {5, 9};
