@@ -206,6 +206,7 @@ static void too_many_failed_runs_are_an_error_and_are_kept(void** state) {
     *wild = study;
     wild->inputs[1].lower = -40; /* no such speed: half of the runs fail */
     wild->inputs[1].upper = 50;
+    wild->campaign.design = BT_DESIGN_SOBOL; // draws from the bounds
     wild->campaign.samples = 16;
     char *directory = toy_directory(), path[4096];
     bt_ledger* ledger = NULL;
