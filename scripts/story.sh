@@ -39,8 +39,8 @@ for d in 0.5 1 1.5 2 2.5 3 4 5 6 7 7.5 8 8.25 8.5 9 10 11 12; do
 done
 cat <<'TEXT'
 
-Missed in the first bounce, while the head is still turned up with the shank (1 to 2.25 m; the bounce ends at 3 m, in the paper at 4 m); caught
-from 2.5 to 7.5 m; lowest of all at 8 m, where the main wheels, still in the air, have just beaten the cable down; caught again
+Missed in the first bounce, while the head is still turned up with the shank (1 to 2 m; the bounce ends at 3 m, in the paper at 4 m); caught
+from 2.5 to 7.5 m; lowest of all at 8 m, where the main wheels, still in the air, have just knocked the cable down; caught again
 behind, where the cable has had the time to come back. Negative margins are misses.
 
 ## Distance, everything scattering
@@ -55,7 +55,7 @@ for d in 1 2 3 4 5 6 7 8 9 10 11; do
 done
 cat <<'TEXT'
 
-Low below 4 m, best at 5 m, a dip at 8 m, up again after: the shape of Fig. 22. With everything scattering the first bounce is the lowest
+Low below 4 m, best at 5 m, a shallow dip at 7 to 8 m, up again after: the shape of Fig. 22. With everything scattering the first bounce is the lowest
 place, not the dip, since pitch and sinking velocity shift the dip by metres (the wheels cross the cable at D = 4.7 m + V_E (height of
 the wheels at first touch - height of the cable) / V_V). A distance that scatters by 2 m hides the dip.
 
@@ -74,11 +74,12 @@ done
 cat <<'TEXT'
 
 The errors considered: where the hook is in its first bounce when it comes to the cable (D about 3 or 4 m), the reliability falls with
-the sinking velocity and with the pitch (at 4 m from 3 deg on), as in the paper. At 5.5 m it does not move with the sinking velocity by more than a point and a half, and with the
-pitch it rises to 5 deg before it falls: at 1 deg the wheels hang so low that they beat the cable down at 5 to 7 m instead of 8 m. With the
-horizontal velocity it falls, by 4 points at 5.5 m and by 10 and 19 points at 4 and 3 m, because a faster hook bounces further:
-here the paper has almost no change. Of its advice, landing 5 to 6 m before the cable is what this study would say too; at most 4.5 m/s and 1 to 3 deg of pitch
-only for hooks that land closer than that.
+the sinking velocity and, from 2 or 3 deg on, with the pitch, as in the paper. Read as "given D", at 5.5 m, it does not move with the sinking
+velocity, and with the pitch it rises to 5 deg before it falls: at 1 deg the wheels hang so low that they knock the cable down at 5 to 7 m instead
+of 8 m. Read as "scattering D", with a distance that scatters by 3 m about 4.5 m, it falls with the sinking velocity and with the pitch as the paper
+says, since then the first bounce decides. With the horizontal velocity it falls in every column, most where the hook is in its first bounce, because
+a faster hook bounces further: here the paper has almost no change. Of its advice, landing 5 to 6 m before the cable is what this study would say too;
+at most 4.5 m/s and 1 to 3 deg of pitch only where the distance scatters, or for hooks that land closer than that.
 
 What was chosen for the sake of this story is told in docs/decisions.md.
 TEXT
