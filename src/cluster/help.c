@@ -1,6 +1,7 @@
 /// The other ranks: threads compute what rank 0 sends; the main thread alone speaks MPI.
-#ifdef BT_HAVE_MPI
 #include "cluster/cluster.h"
+
+#ifdef BT_HAVE_MPI
 #include "cluster/world.h"
 
 #include "base/clock.h"

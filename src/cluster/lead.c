@@ -1,6 +1,8 @@
 /// Rank 0: gives every job to the rank with the emptiest hands, itself among them, and takes the
 /// results as they come. A job stays known until its result is here, so those of a rank that died
 /// are given to another.
+#include "cluster/cluster.h"
+
 #ifdef BT_HAVE_MPI
 #include "cluster/world.h"
 
