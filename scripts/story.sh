@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Writes docs/story.md: does the reference study tell the paper's story? Landings of the full model,
-# no surrogate. About five minutes on two cores.
+# no surrogate. About a quarter of an hour on two cores.
 #
 # usage: scripts/story.sh [BOLTER]     (default: build/bolter)
 set -euo pipefail
@@ -9,7 +9,7 @@ bolter=${1:-build/bolter}
 study=studies/reference/study.yaml
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-landings=400
+landings=1000
 
 # share MEAN_OF=VALUE D_MEAN D_SD: engaged share of fresh landings with one mean moved
 share() {
@@ -46,7 +46,7 @@ behind, where the cable has had the time to come back. Negative margins are miss
 ## Distance, everything scattering
 
 TEXT
-echo "Share engaged of $landings landings each (one standard error is at most 0.025)."
+echo "Share engaged of $landings landings each (one standard error is at most 0.016)."
 echo
 echo "| mean of D, m | sd 1 m, the study's | sd 2 m |"
 echo "| --- | --- | --- |"
@@ -62,7 +62,7 @@ the wheels at first touch - height of the cable) / V_V). A distance that scatter
 ## One mean moved, everything else scattering (Figs. 19-21)
 
 TEXT
-echo "Share engaged of $landings landings each (one standard error is about 0.012)."
+echo "Share engaged of $landings landings each (one standard error is at most 0.016)."
 echo
 echo "| mean | D from N(3 m, 1 m) | D from N(4 m, 1 m) | D from N(5.5 m, 1 m), the study's | D from N(4.5 m, 3 m) |"
 echo "| --- | --- | --- | --- | --- |"
