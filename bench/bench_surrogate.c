@@ -1,7 +1,7 @@
 /// Training, prediction and sampling, beside LIBSVM and GSL doing the same work.
 #include "bench.h"
 
-#include "base/tasks.h"
+#include "base/threads.h"
 #include "reliability/monte_carlo.h"
 #include "reliability/sample_kernel.h"
 #include "surrogate/predictor.h"

@@ -44,7 +44,7 @@ run drop_test studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv
 "$scratch/shared" studies/rigs/open_nose_gear.yaml nose_drop examples/drop.csv >"$scratch/b"
 cmp "$scratch/a" "$scratch/b"
 run reliability "$study" 64 "$scratch/reliability" uncertainty.landing.pitch.sd "0.8 deg" \
-    reliability.samples 20000 reliability.truth_runs 0
+    reliability.samples 20000 reliability.high_fidelity_runs 0
 run campaign "$study" 64 "$scratch/campaign" 2>/dev/null
 # Python, from the installed files alone
 if command -v python3 >/dev/null; then

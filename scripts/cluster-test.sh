@@ -79,7 +79,7 @@ echo "cluster-test: Slurm $(sinfo --version | cut -d' ' -f2) is up"
 study=(studies/reference/study.yaml --set campaign.samples=1600 --set campaign.unsure=0
     --set "deck.cable.mesh.fine_length=0.2 m" --set "deck.cable.mesh.medium_length=0.3 m"
     --set "deck.cable.mesh.coarse_length=0.6 m" --set reliability.samples=1000
-    --set reliability.truth_runs=0)
+    --set reliability.high_fidelity_runs=0)
 content() {
     "$bolter" campaign status "${study[@]}" -o "$1" --json | sed -n 's/.*"content": "\(.*\)".*/\1/p'
 }

@@ -268,7 +268,7 @@ class Campaigns(unittest.TestCase):
             self.assertEqual(right, fit.train_correct + fit.holdout_correct)
 
     def test_reliability_has_a_row_per_condition_and_one_for_the_study(self):
-        sets = ["campaign.samples=256", "reliability.samples=20000", "reliability.truth_runs=8"]
+        sets = ["campaign.samples=256", "reliability.samples=20000", "reliability.high_fidelity_runs=8"]
         conditions = "reliability.conditions={landing.distance: [4 m, 6 m]}"
         with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
             warnings.simplefilter("ignore", bolter.BolterWarning)

@@ -82,8 +82,8 @@ static void slip_of(const motion* m, const bt_cable_slide* slide, double slip[3]
 }
 
 /// Friction at one contact; its work during the kick, J.
-static double rub(const bt_cable_model* model, const bt_cable_state* s, double kick_s,
-                  const motion* m, bt_cable_slide* slide) {
+static double friction_kick(const bt_cable_model* model, const bt_cable_state* s, double kick_s,
+                            const motion* m, bt_cable_slide* slide) {
     const int i = slide->segment;
     double slip[3];
     slip_of(m, slide, slip);
@@ -120,7 +120,7 @@ double bt_cable_slides(const bt_cable_model* model, bt_cable_state* cable, doubl
         for (int k = 0; k < n; ++k)
             if (slides[k].segment == i)
                 respond_to(model, cable, &slides[k], 0.5 * kick_s, &m);
-        work_J += rub(model, cable, kick_s, &m, slide);
+        work_J += friction_kick(model, cable, kick_s, &m, slide);
         bt_cable_add_load(cable, i, slide->force_N, slide->point_m);
     }
     return work_J;

@@ -1,6 +1,6 @@
 #include "calibration/evaluate.h"
 
-#include "base/tasks.h"
+#include "base/threads.h"
 #include "calibration/simulated_case.h"
 
 #include <math.h>

@@ -168,7 +168,7 @@ static bt_status run_rounds(campaign* c, const bt_study* study) {
     return status;
 }
 
-static bt_status run(campaign* c, const bt_study* study) {
+static bt_status run_design(campaign* c, const bt_study* study) {
     c->progress->total = count_mine(c);
     BT_TRY(find_present(c));
     c->progress->before = c->progress->done;
@@ -200,7 +200,7 @@ bt_status bt_campaign_run(const bt_study* study, bt_ledger* ledger,
     BT_TRY(bt_design_create(study, &c.design, diag));
     c.count = bt_design_count(c.design);
     c.present = calloc((size_t)(c.count / 8 + 1), 1);
-    bt_status status = c.present ? run(&c, study) : BT_ERR_MEMORY;
+    bt_status status = c.present ? run_design(&c, study) : BT_ERR_MEMORY;
     free(c.present);
     bt_design_destroy(c.design);
     progress->seconds = bt_clock_s() - c.started_s;

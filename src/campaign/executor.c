@@ -90,7 +90,7 @@ static void take(batch* b, const bt_finished* finished) {
 }
 
 /// Hands results to the sink until the back end has nothing left to give.
-static void run(batch* b) {
+static void run_batch(batch* b) {
     const bt_executor* e = b->executor;
     bt_finished finished[RECEIVED_MOST];
     double next_pulse_s = bt_clock_s() + pulse_s;
@@ -115,7 +115,7 @@ bt_status bt_executor_run(const bt_executor* executor, bt_diag* diag) {
                .stopped_s = NAN,
                .diag = diag};
     BT_TRY(b.backend->open(executor, &b.state, &b.room, diag));
-    run(&b);
+    run_batch(&b);
     b.backend->close(b.state);
     return b.status == BT_OK && b.left_over ? BT_ERR_INTERRUPTED : b.status;
 }

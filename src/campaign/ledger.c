@@ -111,7 +111,7 @@ static bt_status check_pages(bt_ledger* ledger, int64_t pages, bt_diag* diag) {
     static const int64_t small_bytes = 16 << 20;
     int64_t page_bytes = 0;
     struct stat info;
-    BT_TRY(bt_ledger_ask(ledger, "PRAGMA page_size", &page_bytes, diag));
+    BT_TRY(bt_ledger_integer(ledger, "PRAGMA page_size", &page_bytes, diag));
     const int64_t bytes = pages * page_bytes;
     if (stat(ledger->path, &info) == 0 && info.st_size < bytes)
         return say_damaged(ledger, diag);
@@ -136,9 +136,9 @@ static bt_status say_other_format(const bt_ledger* ledger, int64_t version, bt_d
 static bt_status check_format(bt_ledger* ledger, bt_ledger_access how, const char* identity,
                               bt_diag* diag) {
     int64_t application = 0, version = 0, pages = 0;
-    BT_TRY(bt_ledger_ask(ledger, "PRAGMA page_count", &pages, diag));
-    BT_TRY(bt_ledger_ask(ledger, "PRAGMA application_id", &application, diag));
-    BT_TRY(bt_ledger_ask(ledger, "PRAGMA user_version", &version, diag));
+    BT_TRY(bt_ledger_integer(ledger, "PRAGMA page_count", &pages, diag));
+    BT_TRY(bt_ledger_integer(ledger, "PRAGMA application_id", &application, diag));
+    BT_TRY(bt_ledger_integer(ledger, "PRAGMA user_version", &version, diag));
     if (how != BT_LEDGER_READ && sqlite3_db_readonly(ledger->db, "main") == 1) {
         bt_diag_add(diag, BT_ERROR, bt_ledger_place(ledger),
                     "the ledger cannot be written (read-only file or directory)");

@@ -51,8 +51,8 @@ BT_CHECKED bt_status bt_ledger_execute(bt_ledger* ledger, const char* sql, const
 BT_CHECKED bt_status bt_ledger_execute_text(bt_ledger* ledger, sqlite3_str* text, bt_diag* diag);
 
 /// The first column of the first row, as a number.
-BT_CHECKED bt_status bt_ledger_ask(bt_ledger* ledger, const char* sql, int64_t* answer,
-                                   bt_diag* diag);
+BT_CHECKED bt_status bt_ledger_integer(bt_ledger* ledger, const char* sql, int64_t* answer,
+                                       bt_diag* diag);
 
 /// Drops what was not committed.
 void bt_ledger_roll_back(bt_ledger* ledger);

@@ -356,5 +356,5 @@ bt_status bt_ledger_scan(bt_ledger* ledger, bt_ledger_glance* visit, void* user,
 }
 
 bt_status bt_ledger_last_run(bt_ledger* ledger, int64_t* run, bt_diag* diag) {
-    return bt_ledger_ask(ledger, "SELECT ifnull(max(run), -1) FROM runs", run, diag);
+    return bt_ledger_integer(ledger, "SELECT ifnull(max(run), -1) FROM runs", run, diag);
 }

@@ -94,7 +94,7 @@ bt_status bt_ledger_execute_text(bt_ledger* ledger, sqlite3_str* text, bt_diag* 
     return status;
 }
 
-bt_status bt_ledger_ask(bt_ledger* ledger, const char* sql, int64_t* answer, bt_diag* diag) {
+bt_status bt_ledger_integer(bt_ledger* ledger, const char* sql, int64_t* answer, bt_diag* diag) {
     sqlite3_stmt* statement = NULL;
     if (sqlite3_prepare_v2(ledger->db, sql, -1, &statement, NULL) != SQLITE_OK)
         return bt_ledger_sql_error(ledger, "cannot read", diag);

@@ -77,7 +77,7 @@ static bt_status has_column(bt_ledger* ledger, const char* name, bool* has, bt_d
     int64_t count = 0;
     if (!sql)
         return BT_ERR_MEMORY;
-    const bt_status status = bt_ledger_ask(ledger, sql, &count, diag);
+    const bt_status status = bt_ledger_integer(ledger, sql, &count, diag);
     sqlite3_free(sql);
     *has = count > 0;
     return status;
@@ -119,8 +119,8 @@ static bt_status find_contacts(bt_ledger* ledger, bool writing, bt_diag* diag) {
         append_contacts(text);
         BT_TRY(bt_ledger_execute_text(ledger, text, diag));
     }
-    BT_TRY(
-        bt_ledger_ask(ledger, "SELECT count(*) FROM pragma_table_info('contacts')", &count, diag));
+    BT_TRY(bt_ledger_integer(ledger, "SELECT count(*) FROM pragma_table_info('contacts')", &count,
+                             diag));
     ledger->has_contacts = count > 0;
     return BT_OK;
 }

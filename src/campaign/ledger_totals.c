@@ -143,8 +143,8 @@ bt_status bt_ledger_store_totals(bt_ledger* ledger, bt_diag* diag) {
 
 bt_status bt_ledger_make_totals(bt_ledger* ledger, bt_diag* diag) {
     int64_t there = 0;
-    BT_TRY(bt_ledger_ask(ledger, "SELECT count(*) FROM sqlite_master WHERE name = 'totals'", &there,
-                         diag));
+    BT_TRY(bt_ledger_integer(ledger, "SELECT count(*) FROM sqlite_master WHERE name = 'totals'",
+                             &there, diag));
     if (there)
         return BT_OK;
     return bt_ledger_execute(

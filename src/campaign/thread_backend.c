@@ -1,4 +1,4 @@
-#include "base/tasks.h"
+#include "base/threads.h"
 #include "campaign/backend.h"
 
 #include <math.h>

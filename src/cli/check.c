@@ -36,7 +36,7 @@ static bt_status print_text(const bt_study* study, int64_t runs, const bt_report
         printf("%s %s", i ? "," : "", study->inputs[axes.input[i]].path);
     printf("\nreliability %d conditions, %s samples each, checked by %s high-fidelity runs each\n",
            study->condition_count, bt_count_text(study->reliability.samples, samples),
-           bt_count_text(study->reliability.truth_runs, checks));
+           bt_count_text(study->reliability.high_fidelity_runs, checks));
     printf("results     %s\n\n", study->directory);
     return bt_report_table_print(steps, stdout);
 }

@@ -15,7 +15,7 @@ static bt_status show(const bt_command* command, const bt_report_table* table, b
     return status;
 }
 
-static bt_status run(const bt_command* command) {
+static bt_status run_paper(const bt_command* command) {
     bt_diag diag = bt_stderr_diag();
     bt_report_table* table = NULL;
     bt_study study;
@@ -40,5 +40,5 @@ const bt_verb bt_verb_paper = {
     .least_words = 1,
     .most_words = 1,
     .outputs = BT_OUTPUT_TABLE | BT_OUTPUT_DIRECTORY,
-    .run = run,
+    .run = run_paper,
 };

@@ -22,7 +22,7 @@ typedef struct peer {
     MPI_Request request;
 } peer;
 
-typedef struct crew {
+typedef struct ranks {
     bt_batch_text text;
     bt_diag* diag;
     void* own;      ///< threads of this process
@@ -34,13 +34,13 @@ typedef struct crew {
     int waiting_count;
     int given_up; ///< jobs to be handed back as interrupted
     bool cancelled;
-} crew;
+} ranks;
 
 static bool is_lost(const peer* p) {
     return bt_the_world.lost[p->rank];
 }
 
-static int count_alive(const crew* c) {
+static int count_alive(const ranks* c) {
     int alive = 0;
     for (int i = 0; i < c->peer_count; ++i)
         alive += !is_lost(&c->peers[i]);
@@ -48,7 +48,7 @@ static int count_alive(const crew* c) {
 }
 
 /// Takes a rank for dead; what it had in hand waits for another.
-static void lose(crew* c, peer* p) {
+static void lose(ranks* c, peer* p) {
     bt_the_world.lost[p->rank] = true;
     bt_diag_add(c->diag, BT_WARNING, BT_NOWHERE,
                 "rank %d is gone; its %d landings are given to the others", p->rank, p->in_hand);
@@ -59,7 +59,7 @@ static void lose(crew* c, peer* p) {
     c->own_works = c->own_works || count_alive(c) == 0;
 }
 
-static void send_order(crew* c, peer* p, bt_order_kind kind, const bt_job* job) {
+static void send_order(ranks* c, peer* p, bt_order_kind kind, const bt_job* job) {
     bt_order order;
     memset(&order, 0, sizeof order);
     order.batch = c->text.batch;
@@ -90,7 +90,7 @@ static bool can_be_sent(const bt_executor* executor) {
     return found;
 }
 
-static void write_batch(crew* c, const bt_executor* executor, int64_t batch) {
+static void write_batch(ranks* c, const bt_executor* executor, int64_t batch) {
     c->text.batch = batch;
     c->text.threads = executor->threads;
     c->text.axis_count = executor->axes->count;
@@ -99,7 +99,7 @@ static void write_batch(crew* c, const bt_executor* executor, int64_t batch) {
         memcpy(c->text.path[i], executor->inputs[executor->axes->input[i]].path, BT_PATH_MAX);
 }
 
-static bt_status call_peers(crew* c, const bt_executor* executor) {
+static bt_status call_peers(ranks* c, const bt_executor* executor) {
     c->peers = calloc((size_t)bt_the_world.size, sizeof *c->peers);
     if (!c->peers)
         return BT_ERR_MEMORY;
@@ -119,8 +119,8 @@ static bt_status call_peers(crew* c, const bt_executor* executor) {
     return BT_OK;
 }
 
-static void close_crew(void* state) {
-    crew* c = state;
+static void close_ranks(void* state) {
+    ranks* c = state;
     if (!c)
         return;
     for (int i = 0; c->peers && i < c->peer_count; ++i) {
@@ -138,7 +138,7 @@ static void close_crew(void* state) {
     free(c);
 }
 
-static bt_status open_parts(crew* c, const bt_executor* executor, int* room, bt_diag* diag) {
+static bt_status open_parts(ranks* c, const bt_executor* executor, int* room, bt_diag* diag) {
     if (can_be_sent(executor))
         BT_TRY(call_peers(c, executor));
     const int own = executor->threads > 0 ? executor->threads : bt_cluster_threads(0);
@@ -153,8 +153,8 @@ static bt_status open_parts(crew* c, const bt_executor* executor, int* room, bt_
     return c->waiting ? BT_OK : BT_ERR_MEMORY;
 }
 
-static bt_status open_crew(const bt_executor* executor, void** state, int* room, bt_diag* diag) {
-    crew* c = calloc(1, sizeof *c);
+static bt_status open_ranks(const bt_executor* executor, void** state, int* room, bt_diag* diag) {
+    ranks* c = calloc(1, sizeof *c);
     *state = NULL;
     if (!c)
         return BT_ERR_MEMORY;
@@ -164,14 +164,14 @@ static bt_status open_crew(const bt_executor* executor, void** state, int* room,
     if (status == BT_OK)
         *state = c;
     else
-        close_crew(c);
+        close_ranks(c);
     return status;
 }
 
 // --- giving -----------------------------------------------------------------------------------
 
 /// The rank whose hands are emptiest; NULL: this process, or nobody (`room` 0).
-static peer* emptiest(crew* c, int* room) {
+static peer* emptiest(ranks* c, int* room) {
     peer* best = NULL;
     *room = c->own_works ? c->own_room - c->own_in_hand : 0;
     for (int i = 0; i < c->peer_count; ++i) {
@@ -184,7 +184,7 @@ static peer* emptiest(crew* c, int* room) {
     return best;
 }
 
-static void give(crew* c) {
+static void give(ranks* c) {
     while (c->waiting_count > 0) {
         int room;
         peer* p = emptiest(c, &room);
@@ -202,7 +202,7 @@ static void give(crew* c) {
 }
 
 static void submit(void* state, const bt_job* job) {
-    crew* c = state;
+    ranks* c = state;
     c->waiting[c->waiting_count++] = *job;
     give(c);
 }
@@ -220,7 +220,7 @@ static void strike(peer* p, const bt_finished* finished) {
 }
 
 /// One message, if there is one; whether it was a result of this batch.
-static bool take_message(crew* c, bt_finished* finished, bool* any) {
+static bool take_message(ranks* c, bt_finished* finished, bool* any) {
     int there = 0;
     MPI_Status from;
     *any = false;
@@ -243,7 +243,7 @@ static bool take_message(crew* c, bt_finished* finished, bool* any) {
     return true;
 }
 
-static int take_messages(crew* c, bt_finished* finished, int most) {
+static int take_messages(ranks* c, bt_finished* finished, int most) {
     int count = 0;
     for (bool any = true; any && count < most;)
         count += take_message(c, &finished[count], &any);
@@ -251,7 +251,7 @@ static int take_messages(crew* c, bt_finished* finished, int most) {
 }
 
 /// Jobs that nobody will finish after a cancel.
-static int hand_back(crew* c, bt_finished* finished, int most) {
+static int hand_back(ranks* c, bt_finished* finished, int most) {
     int count = 0;
     for (; count < most && c->given_up > 0; ++count, --c->given_up) {
         memset(&finished[count], 0, sizeof *finished);
@@ -260,7 +260,7 @@ static int hand_back(crew* c, bt_finished* finished, int most) {
     return count;
 }
 
-static void look_for_dead(crew* c) {
+static void look_for_dead(ranks* c) {
     const double now_s = bt_clock_s();
     for (int i = 0; i < c->peer_count; ++i) {
         peer* p = &c->peers[i];
@@ -270,7 +270,7 @@ static void look_for_dead(crew* c) {
 }
 
 /// What is here now; sleeps a little when it is nothing.
-static int take(crew* c, bt_finished* finished, int most, double wait_s) {
+static int take(ranks* c, bt_finished* finished, int most, double wait_s) {
     int count = hand_back(c, finished, most);
     count += take_messages(c, finished + count, most - count);
     if (count == most)
@@ -282,7 +282,7 @@ static int take(crew* c, bt_finished* finished, int most, double wait_s) {
 }
 
 static int receive(void* state, bt_finished* finished, int most, double wait_s) {
-    crew* c = state;
+    ranks* c = state;
     const double until_s = bt_clock_s() + wait_s;
     int count = 0;
     for (bool more = true; more; more = count == 0 && bt_clock_s() < until_s) {
@@ -294,7 +294,7 @@ static int receive(void* state, bt_finished* finished, int most, double wait_s) 
 }
 
 static int cancel(void* state, bool abandon) {
-    crew* c = state;
+    ranks* c = state;
     const int own = bt_thread_backend.cancel(c->own, abandon);
     const int forgotten = own + c->waiting_count;
     c->own_in_hand -= own;
@@ -307,10 +307,10 @@ static int cancel(void* state, bool abandon) {
 
 const bt_backend bt_mpi_backend = {
     .name = "mpi",
-    .open = open_crew,
+    .open = open_ranks,
     .submit = submit,
     .receive = receive,
     .cancel = cancel,
-    .close = close_crew,
+    .close = close_ranks,
 };
 #endif

@@ -4,7 +4,7 @@
 #include "cluster/cluster.h"
 
 #include "base/hash.h"
-#include "base/tasks.h"
+#include "base/threads.h"
 #include "surrogate/predictor.h"
 
 #include <stdlib.h>

@@ -20,11 +20,11 @@ static char* table_key(const bt_study* study, const bt_surrogate* surrogate) {
         return NULL;
     fprintf(out,
             "%s: campaign %016" PRIx64 " unsure %a training %016" PRIx64
-            " C %a gamma %a rho %a samples %lld truth %lld others %d "
+            " C %a gamma %a rho %a samples %lld high_fidelity %lld others %d "
             "seed %lld\n",
             algorithm, study->hash, study->campaign.unsure, surrogate->training_hash, surrogate->C,
-            surrogate->gamma, surrogate->rho, (long long)p->samples, (long long)p->truth_runs,
-            p->others, (long long)p->seed);
+            surrogate->gamma, surrogate->rho, (long long)p->samples,
+            (long long)p->high_fidelity_runs, p->others, (long long)p->seed);
     for (int i = 0; i < study->input_count; ++i) {
         const bt_distribution* d = &study->inputs[i].distribution;
         if (study->inputs[i].random)
@@ -59,23 +59,24 @@ static bt_status compute(bt_study_directory* directory, const bt_surrogate* surr
                          const bt_reliability_stage* stage, bt_reliability_result* result,
                          bt_status* failed) {
     const int threads = (int)directory->study->campaign.threads;
-    bt_high_fidelity* truth = NULL;
+    bt_high_fidelity* high_fidelity = NULL;
     bt_evidence evidence = {0};
     bt_judged* judged = NULL;
     BT_TRY(judge(directory, &evidence, &judged));
-    bt_status status =
-        bt_high_fidelity_create(directory->study, threads, stage->stop, stage->backend, &truth);
+    bt_status status = bt_high_fidelity_create(directory->study, threads, stage->stop,
+                                               stage->backend, &high_fidelity);
     const bt_reliability_options options = {.judged = judged,
-                                            .truth = bt_high_fidelity_run,
-                                            .truth_user = truth,
+                                            .high_fidelity = bt_high_fidelity_run,
+                                            .high_fidelity_user = high_fidelity,
                                             .threads = threads,
                                             .stop = stage->stop,
                                             .watch = stage->watch,
                                             .watch_user = stage->watch_user};
     if (status == BT_OK)
         status = bt_reliability_run(directory->study, surrogate, &options, result, directory->diag);
-    *failed = status == BT_OK ? bt_high_fidelity_check_failed(truth, directory->diag) : status;
-    bt_high_fidelity_destroy(truth);
+    *failed =
+        status == BT_OK ? bt_high_fidelity_check_failed(high_fidelity, directory->diag) : status;
+    bt_high_fidelity_destroy(high_fidelity);
     bt_judged_destroy(judged);
     bt_evidence_destroy(&evidence);
     return status;

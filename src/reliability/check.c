@@ -14,7 +14,7 @@ static const double POISSON_LIMIT =
 enum { STREAM_PICK = 0x52500000u };
 
 int bt_check_stratum(const bt_check* check, int8_t label, float decision) {
-    return 2 * (label > 0) + (fabsf(decision) <= check->near);
+    return 2 * (label > 0) + (fabsf(decision) <= check->layer);
 }
 
 /* ---- the plan ---- */
@@ -51,17 +51,18 @@ static bt_status smallest(const bt_pool* pool, int64_t rank, float* value) {
     return BT_OK;
 }
 
-/// Half-width to be expected when a share `near_part` of the runs goes to the near strata and the
-/// surrogate errs there only: the far ones will be bounded by having shown nothing.
-static double expected_width(const double share[BT_STRATA], double near_part, int runs,
+/// Half-width to be expected when a share `boundary_part` of the runs goes to the boundary strata
+/// and the surrogate errs there only: the interior ones will be bounded by having shown nothing.
+static double expected_width(const double share[BT_STRATA], double boundary_part, int runs,
                              double expected_error) {
-    const double near = share[1] + share[3], far = share[0] + share[2];
-    const double rate = near > 0 ? fmin(0.5, expected_error / near) : 0;
+    const double boundary = share[1] + share[3], interior = share[0] + share[2];
+    const double rate = boundary > 0 ? fmin(0.5, expected_error / boundary) : 0;
     double square = 0;
     for (int k = 0; k < BT_STRATA; ++k) {
         if (share[k] <= 0)
             continue;
-        const double part = k & 1 ? near_part * share[k] / near : (1 - near_part) * share[k] / far;
+        const double part =
+            k & 1 ? boundary_part * share[k] / boundary : (1 - boundary_part) * share[k] / interior;
         const double m = fmax(part * runs, 1e-3);
         const double width =
             fmax(POISSON_LIMIT / m, k & 1 ? NORMAL_LIMIT * sqrt(rate * (1 - rate) / m) : 0);
@@ -78,22 +79,24 @@ static int plan_more(bt_stratum* s, int wanted) {
     return more;
 }
 
-/// Shares out the runs: in proportion within near and far, between them for the least width.
+/// Shares out the runs: in proportion within boundary and interior, between them for the least
+/// width.
 static void share_out(bt_check* check, int64_t pool, int runs, double expected_error) {
     double share[BT_STRATA];
     for (int k = 0; k < BT_STRATA; ++k)
         share[k] = (double)check->stratum[k].pool / (double)pool;
-    const double near = share[1] + share[3];
-    double best_part = near, best = INFINITY;
-    for (double part = near; part <= 0.8 && near > 0 && near < 1; part += 0.02) {
+    const double boundary = share[1] + share[3];
+    double best_part = boundary, best = INFINITY;
+    for (double part = boundary; part <= 0.8 && boundary > 0 && boundary < 1; part += 0.02) {
         const double width = expected_width(share, part, runs, expected_error);
         if (width < best) {
             best = width;
             best_part = part;
         }
     }
-    // One for every stratum that has a sample (the estimate is without bias only if each is asked),
-    // the rest by share in whole numbers, and what a small stratum cannot take goes to the others.
+    // One for every stratum that has a sample (the estimate is without bias only if each has a
+    // run), the rest by share in whole numbers, and what a small stratum cannot take goes to the
+    // others.
     int left = runs;
     for (int k = 0; k < BT_STRATA && runs >= BT_STRATA; ++k)
         left -= check->stratum[k].planned = check->stratum[k].pool > 0;
@@ -101,8 +104,8 @@ static void share_out(bt_check* check, int64_t pool, int runs, double expected_e
     double due = 0;
     for (int k = 0; k < BT_STRATA; ++k)
         if (share[k] > 0) {
-            due += shared *
-                   (k & 1 ? best_part * share[k] / near : (1 - best_part) * share[k] / (1 - near));
+            due += shared * (k & 1 ? best_part * share[k] / boundary
+                                   : (1 - best_part) * share[k] / (1 - boundary));
             left -= plan_more(&check->stratum[k], (int)floor(due + 0.5) - (shared - left));
         }
     for (int k = BT_STRATA - 1; k >= 0; --k)
@@ -135,9 +138,9 @@ static void pick(const bt_pool* pool, uint64_t seed, uint32_t stream, int* membe
 bt_status bt_check_plan(const bt_pool* pool, int runs, double expected_error, uint64_t seed,
                         uint32_t stream, bt_check* check) {
     *check = (bt_check){0};
-    // Near: four times as many as are expected to be wrong.
-    const double near_share = fmin(fmax(4 * expected_error, 0.02), 0.25);
-    BT_TRY(smallest(pool, (int64_t)(near_share * (pool->count - 1)), &check->near));
+    // Boundary: four times as many as are expected to be wrong.
+    const double boundary_share = fmin(fmax(4 * expected_error, 0.02), 0.25);
+    BT_TRY(smallest(pool, (int64_t)(boundary_share * (pool->count - 1)), &check->layer));
     for (int i = 0; i < pool->count; ++i)
         ++check->stratum[bt_check_stratum(check, pool->label[i], pool->decision[i])].pool;
     share_out(check, pool->count, runs, expected_error);

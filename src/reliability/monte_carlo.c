@@ -1,6 +1,6 @@
 #include "reliability/monte_carlo.h"
 
-#include "base/tasks.h"
+#include "base/threads.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -22,7 +22,7 @@ typedef struct bt_tally {
     int64_t outside, outside_engaged; ///< of them, outside the box
 } bt_tally;
 
-/// The first samples of a Monte Carlo, kept one by one for the check against the truth.
+/// The first samples of a Monte Carlo, kept one by one for the check by high-fidelity runs.
 typedef struct bt_pool {
     int count;
     int8_t* label;   ///< [count]

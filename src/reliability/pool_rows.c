@@ -43,7 +43,7 @@ static double* weight_of(const bt_pool_rows* p, int component) {
 /// Whether the landings, and not the condition's fresh runs, give the corrected number: decided by
 /// the design alone, never by what came out.
 static bool carries(const bt_cut* cut, const bt_reliability_row* row) {
-    return row->truth_runs == 0 || cut->cut <= cut_limit;
+    return row->high_fidelity_runs == 0 || cut->cut <= cut_limit;
 }
 
 bt_status bt_pool_rows_fill(bt_pool_rows* p, int component, const bt_sampler* sampler,

@@ -10,9 +10,9 @@ enum { POOL_MAX = 1000000 };
 
 /* ---- one condition ---- */
 
-/// Makes the planned true runs and counts them into their strata.
-static bt_status run_truth(const bt_sampler* sampler, const bt_pool* pool, bt_check* check,
-                           bt_high_fidelity_batch* truth, void* user) {
+/// Makes the planned high-fidelity runs and counts them into their strata.
+static bt_status run_high_fidelity(const bt_sampler* sampler, const bt_pool* pool, bt_check* check,
+                                   bt_high_fidelity_batch* high_fidelity, void* user) {
     const size_t n = (size_t)check->picked_count, dims = (size_t)sampler->dims;
     double* x = malloc((n * dims + 1) * sizeof *x);
     int* label = malloc((n + 1) * sizeof *label);
@@ -20,7 +20,7 @@ static bt_status run_truth(const bt_sampler* sampler, const bt_pool* pool, bt_ch
     for (size_t i = 0; i < n && status == BT_OK; ++i)
         bt_sampler_draw(sampler, (uint64_t)check->picked[i], 1, x + i * dims);
     if (status == BT_OK)
-        status = truth(user, x, check->picked_count, label);
+        status = high_fidelity(user, x, check->picked_count, label);
     for (size_t i = 0; i < n && status == BT_OK; ++i) {
         const int8_t said = pool->label[check->picked[i]];
         bt_stratum* s =
@@ -49,14 +49,14 @@ static void fill_from_tally(bt_reliability_row* row, const bt_tally* t) {
 static void fill_from_check(bt_reliability_row* row, const bt_check* check) {
     memcpy(row->stratum, check->stratum, sizeof row->stratum);
     for (int k = 0; k < BT_STRATA; ++k) {
-        row->truth_runs += check->stratum[k].runs;
-        row->truth_failed += check->stratum[k].failed;
+        row->high_fidelity_runs += check->stratum[k].runs;
+        row->high_fidelity_failed += check->stratum[k].failed;
         row->disagreements += check->stratum[k].disagreed;
     }
     const bt_check_result r = bt_check_estimate(check->stratum);
     row->disagreement = r.disagreement;
     row->disagreement_ci95 = r.disagreement_ci95;
-    row->landings = row->truth_runs;
+    row->landings = row->high_fidelity_runs;
     row->corrected = r.corrected;
     row->corrected_ci95 = r.corrected_ci95;
     row->corrected_sampling = 0.5 * (r.corrected_ci95.greatest - r.corrected_ci95.least);
@@ -76,12 +76,13 @@ static void clear_row(bt_reliability_row* row) {
 }
 
 bt_status bt_reliability_condition(const bt_sampler* sampler, const bt_classifier* classifier,
-                                   int64_t samples, int threads, bt_high_fidelity_batch* truth,
-                                   void* truth_user, int truth_runs, double expected_error,
+                                   int64_t samples, int threads,
+                                   bt_high_fidelity_batch* high_fidelity, void* high_fidelity_user,
+                                   int high_fidelity_runs, double expected_error,
                                    bt_reliability_row* row) {
     const double begun_s = bt_clock_s();
     clear_row(row);
-    const bool checked = truth && truth_runs > 0;
+    const bool checked = high_fidelity && high_fidelity_runs > 0;
     bt_pool pool = {.count = samples < POOL_MAX ? (int)samples : POOL_MAX};
     bt_check check = {0};
     bt_tally tally;
@@ -97,10 +98,10 @@ bt_status bt_reliability_condition(const bt_sampler* sampler, const bt_classifie
     if (status == BT_OK)
         fill_from_tally(row, &tally);
     if (status == BT_OK && checked) {
-        status = bt_check_plan(&pool, truth_runs, expected_error, sampler->seed, sampler->stream,
-                               &check);
+        status = bt_check_plan(&pool, high_fidelity_runs, expected_error, sampler->seed,
+                               sampler->stream, &check);
         if (status == BT_OK)
-            status = run_truth(sampler, &pool, &check, truth, truth_user);
+            status = run_high_fidelity(sampler, &pool, &check, high_fidelity, high_fidelity_user);
         if (status == BT_OK)
             fill_from_check(row, &check);
     }
@@ -165,14 +166,15 @@ static void name_row(const bt_study* study, int condition, bt_reliability_row* r
 static bt_status evaluate(const evaluation* e, int condition, bt_reliability_row* row) {
     const bt_reliability_params* params = &e->study->reliability;
     const bt_reliability_options* o = e->options;
-    const int runs = params->truth_runs < POOL_MAX ? (int)params->truth_runs : POOL_MAX;
+    const int runs =
+        params->high_fidelity_runs < POOL_MAX ? (int)params->high_fidelity_runs : POOL_MAX;
     const bt_sampler sampler = bt_reliability_sampler(e->study, condition);
     if (o->stop && atomic_load(o->stop))
         return BT_ERR_INTERRUPTED;
     name_row(e->study, condition, row);
-    BT_TRY(bt_reliability_condition(&sampler, bt_surrogate_classifier_get(e->classifier),
-                                    params->samples, o->threads, o->truth, o->truth_user, runs,
-                                    expected_error(e->surrogate), row));
+    BT_TRY(bt_reliability_condition(
+        &sampler, bt_surrogate_classifier_get(e->classifier), params->samples, o->threads,
+        o->high_fidelity, o->high_fidelity_user, runs, expected_error(e->surrogate), row));
     return e->pool ? bt_pool_rows_fill(e->pool, condition + 1, &sampler, params->samples,
                                        o->threads, row)
                    : BT_OK;
@@ -197,7 +199,7 @@ static bt_status evaluate_all(const evaluation* e, bt_reliability_result* result
         bt_reliability_row* row = last ? &result->overall : &result->condition[c];
         BT_TRY(evaluate(e, last ? -1 : c, row));
         result->condition_count += !last;
-        result->landings += row->truth_runs;
+        result->landings += row->high_fidelity_runs;
         if (o->watch)
             o->watch(o->watch_user, c + 1, total);
     }

@@ -8,8 +8,8 @@
 #include "reliability/judged.h"
 #include "surrogate/surrogate.h"
 
-/// One condition: samples of the input distributions on the surrogate, and true runs of some of
-/// them. Numbers that were not found out (no true runs) are NAN.
+/// One condition: samples of the input distributions on the surrogate, and high-fidelity runs of
+/// some of them. Numbers that were not found out (no high-fidelity runs) are NAN.
 typedef struct bt_reliability_row {
     char parameter[BT_PATH_MAX]; ///< the input whose mean was moved; "" for the study as it stands
     const char* unit;            ///< its unit token; ""
@@ -19,14 +19,14 @@ typedef struct bt_reliability_row {
     bt_interval surrogate_ci95;  ///< Clopper-Pearson: sampling only
     double outside_share;        ///< of the samples, outside the box of the training landings
     bt_interval outside_ci95;
-    double outside_missed;  ///< the surrogate estimate were all of those missed ...
-    double outside_engaged; ///< ... or all engaged
-    int truth_runs;         ///< made, failed ones included
-    int truth_failed;       ///< of them, without an outcome
-    int disagreements;      ///< of them, with another outcome than the surrogate's
-    double disagreement;    ///< share of disagreements, weighted back to the distribution
+    double outside_missed;    ///< the surrogate estimate were all of those missed ...
+    double outside_engaged;   ///< ... or all engaged
+    int high_fidelity_runs;   ///< made, failed ones included
+    int high_fidelity_failed; ///< of them, without an outcome
+    int disagreements;        ///< of them, with another outcome than the surrogate's
+    double disagreement;      ///< share of disagreements, weighted back to the distribution
     bt_interval disagreement_ci95;
-    double corrected;           ///< the number to defend: mean(surrogate) + mean(truth - surrogate)
+    double corrected;           ///< the number to defend: mean(surrogate) + mean(model - surrogate)
     bt_interval corrected_ci95; ///< covers sampling, surrogate error and what was never seen
     double corrected_sampling;  ///< half-width that what was seen gives
     double corrected_unseen;    ///< what errors of a kind never seen add to it; NAN when the fresh
@@ -74,9 +74,10 @@ typedef struct bt_reliability_result {
 typedef void bt_reliability_watch(void* user, int done, int total);
 
 typedef struct bt_reliability_options {
-    const bt_judged* judged;       ///< the landings of the ledger; NULL: the estimates use none
-    bt_high_fidelity_batch* truth; ///< NULL: no true runs, whatever the study asks for
-    void* truth_user;
+    const bt_judged* judged; ///< the landings of the ledger; NULL: the estimates use none
+    bt_high_fidelity_batch*
+        high_fidelity; ///< NULL: no high-fidelity runs, whatever the study asks for
+    void* high_fidelity_user;
     int threads;                 ///< for the samples; 0: one per core
     const atomic_int* stop;      ///< may be NULL; once not 0: BT_ERR_INTERRUPTED
     bt_reliability_watch* watch; ///< may be NULL
@@ -85,19 +86,19 @@ typedef struct bt_reliability_options {
 
 /// Evaluates one condition.
 ///
-/// @param sampler         the distributions, in the truth's order of inputs; its seed and stream
+/// @param sampler         the distributions, in the study's order of inputs; its seed and stream
 /// are
 ///                        the key of everything random
 /// @param classifier      the surrogate
-/// @param truth           may be NULL: nothing is checked
-/// @param truth_runs      fresh true runs
-/// @param expected_error  guess of the surrogate's error rate (places the true runs)
+/// @param high_fidelity           may be NULL: nothing is checked
+/// @param high_fidelity_runs      fresh high-fidelity runs
+/// @param expected_error  guess of the surrogate's error rate (places the high-fidelity runs)
 /// @param row             parameter, unit and value are left as they are
-/// @return BT_OK, BT_ERR_MEMORY, or what the truth returned
+/// @return BT_OK, BT_ERR_MEMORY, or what `high_fidelity` returned
 BT_CHECKED bt_status bt_reliability_condition(const bt_sampler* sampler,
                                               const bt_classifier* classifier, int64_t samples,
-                                              int threads, bt_high_fidelity_batch* truth,
-                                              void* truth_user, int truth_runs,
+                                              int threads, bt_high_fidelity_batch* high_fidelity,
+                                              void* high_fidelity_user, int high_fidelity_runs,
                                               double expected_error, bt_reliability_row* row);
 
 /// Evaluates every condition of a study and the study as it stands. The same bits for any number
@@ -108,7 +109,7 @@ BT_CHECKED bt_status bt_reliability_condition(const bt_sampler* sampler,
 /// condition's stays at its mean.
 ///
 /// @return BT_OK; BT_ERR_INPUT (an input of the surrogate is not an input of the study; said in
-///         diag); BT_ERR_INTERRUPTED; BT_ERR_MEMORY; what the truth returned
+///         diag); BT_ERR_INTERRUPTED; BT_ERR_MEMORY; what `high_fidelity` returned
 BT_CHECKED bt_status bt_reliability_run(const bt_study* study, const bt_surrogate* surrogate,
                                         const bt_reliability_options* options,
                                         bt_reliability_result* result, bt_diag* diag);

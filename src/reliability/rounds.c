@@ -1,7 +1,7 @@
 #include "reliability/rounds.h"
 
 #include "base/rng.h"
-#include "base/tasks.h"
+#include "base/threads.h"
 #include "surrogate/predictor.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 #include "reliability/sobol_indices.h"
 
 #include "base/rng.h"
-#include "base/tasks.h"
+#include "base/threads.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -29,9 +29,10 @@ static void write_scores(bt_json* json, const bt_surrogate* s) {
     bt_json_number(json, "C", s->C);
     bt_json_number(json, "gamma", s->gamma);
     bt_json_begin_object(json, "confusion");
-    for (int truth = 0; truth < 2; ++truth)
-        for (int answer = 0; answer < 2; ++answer)
-            bt_json_integer(json, names[truth][answer], scores->confusion[truth][answer]);
+    for (int outcome = 0; outcome < 2; ++outcome)
+        for (int prediction = 0; prediction < 2; ++prediction)
+            bt_json_integer(json, names[outcome][prediction],
+                            scores->confusion[outcome][prediction]);
     bt_json_end_object(json);
     bt_json_end_object(json);
 }

@@ -27,8 +27,8 @@ static void write_row(bt_json* json, const char* key, const bt_reliability_row* 
     bt_json_number(json, "surrogate", row->surrogate);
     write_interval(json, "surrogate_ci95", &row->surrogate_ci95);
     bt_json_integer(json, "samples", row->samples);
-    bt_json_integer(json, "truth_runs", row->truth_runs);
-    bt_json_integer(json, "truth_failed", row->truth_failed);
+    bt_json_integer(json, "high_fidelity_runs", row->high_fidelity_runs);
+    bt_json_integer(json, "high_fidelity_failed", row->high_fidelity_failed);
     bt_json_integer(json, "disagreements", row->disagreements);
     bt_json_number(json, "disagreement", row->disagreement);
     write_interval(json, "disagreement_ci95", &row->disagreement_ci95);

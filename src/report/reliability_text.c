@@ -41,11 +41,12 @@ static void value_text(const bt_reliability_row* row, char* text, size_t size) {
 static void add_row(bt_report_table* table, const bt_reliability_row* row) {
     char value[64] = "", disagree[48] = "not checked";
     const char* unit = row->parameter[0] && *row->unit ? bt_unit_text(row->unit) : "";
-    const bool checked = row->truth_runs > 0;
+    const bool checked = row->high_fidelity_runs > 0;
     if (row->parameter[0])
         value_text(row, value, sizeof value);
     if (checked)
-        snprintf(disagree, sizeof disagree, "%d of %d", row->disagreements, row->truth_runs);
+        snprintf(disagree, sizeof disagree, "%d of %d", row->disagreements,
+                 row->high_fidelity_runs);
     bt_report_table_row(table);
     bt_report_table_text(table, name_of(row));
     bt_report_table_said(table, row->parameter[0] ? row->value : NAN, value);
@@ -59,8 +60,8 @@ static void add_row(bt_report_table* table, const bt_reliability_row* row) {
     bt_report_table_interval(table, row->surrogate, &row->surrogate_ci95);
     bt_report_table_count(table, row->samples);
     bt_report_table_said(table, checked ? (double)row->disagreements : NAN, disagree);
-    bt_report_table_count(table, row->truth_runs);
-    bt_report_table_count(table, row->truth_failed);
+    bt_report_table_count(table, row->high_fidelity_runs);
+    bt_report_table_count(table, row->high_fidelity_failed);
     bt_report_table_number(table, checked ? row->disagreement : NAN);
     bt_report_table_number(table, row->outside_share);
 }
@@ -89,11 +90,11 @@ static void remark_difference(bt_report_table* table, const bt_reliability_resul
 
 static void add_remarks(bt_report_table* table, const bt_reliability_result* result) {
     char samples[32];
-    int failed = result->overall.truth_failed, runs = result->overall.truth_runs;
+    int failed = result->overall.high_fidelity_failed, runs = result->overall.high_fidelity_runs;
     const bt_reliability_row* far = &result->overall; // most samples outside the box
     for (int i = 0; i < result->condition_count; ++i) {
-        failed += result->condition[i].truth_failed;
-        runs += result->condition[i].truth_runs;
+        failed += result->condition[i].high_fidelity_failed;
+        runs += result->condition[i].high_fidelity_runs;
         if (result->condition[i].outside_share > far->outside_share)
             far = &result->condition[i];
     }

@@ -24,23 +24,29 @@ static bool read_positive(bt_reader* reader, const bt_node* node, const char* to
     return false;
 }
 
-/// Puts `key: value` in the place of a node, which keeps its place in the file.
-static void put_instead(bt_reader* reader, bt_document* document, bt_node* parent, bt_node* node,
-                        const char* key, double value, const char* token) {
-    char text[64];
+/// Gives a node another key; false after reporting that this one is there too.
+static bool rename_key(bt_reader* reader, bt_document* document, const bt_node* parent,
+                       bt_node* node, const char* key) {
     if (bt_node_child(parent, key)) {
         bt_reader_error(reader, node->key->where, "%s: stands in the place of %s; give one of them",
                         node->key->text, key);
         node->refused = true;
-        return;
+        return false;
     }
+    bt_node* name = bt_document_node(document, BT_NODE_SCALAR, node->key->where, key, strlen(key));
+    if (name)
+        node->key = name;
+    return name != NULL;
+}
+
+/// Puts `key: value` in the place of a node, which keeps its place in the file.
+static void put_instead(bt_reader* reader, bt_document* document, const bt_node* parent,
+                        bt_node* node, const char* key, double value, const char* token) {
+    char text[64];
     bt_unit_print(value, token, text, sizeof text);
     bt_node* by = bt_document_node(document, BT_NODE_SCALAR, node->where, text, strlen(text));
-    bt_node* name = bt_document_node(document, BT_NODE_SCALAR, node->key->where, key, strlen(key));
-    if (!by || !name)
-        return;
-    bt_node_replace(node, by);
-    node->key = name;
+    if (by && rename_key(reader, document, parent, node, key))
+        bt_node_replace(node, by);
 }
 
 /// "air" of "air_diameter": false for other keys.
@@ -80,7 +86,15 @@ static void apply_energy(bt_reader* reader, bt_document* document, bt_node* rig)
         put_instead(reader, document, rig, energy, "sink_speed", sqrt(2 * work / mass), "mps");
 }
 
+static void apply_former_names(bt_reader* reader, bt_document* document, const bt_node* root) {
+    const bt_node* reliability = bt_node_child(root, "reliability");
+    bt_node* runs = bt_node_child(reliability, "truth_runs");
+    if (runs)
+        rename_key(reader, document, reliability, runs, "high_fidelity_runs");
+}
+
 void bt_alternatives_apply(bt_reader* reader, bt_document* document, const bt_node* root) {
+    apply_former_names(reader, document, root);
     apply_diameters(reader, document, bt_node_child(root, "aircraft"), 0);
     bt_node* rigs = bt_node_child(root, "rigs");
     for (bt_node* rig = rigs && rigs->kind == BT_NODE_MAPPING ? rigs->first : NULL; rig;

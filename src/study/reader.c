@@ -152,7 +152,7 @@ void bt_reader_known_keys(bt_reader* reader, const bt_node* node, const char* pa
                           const char* const* names, const char* const* more) {
     for (const bt_node* child = node->first; child; child = child->next) {
         const char* key = child->key->text;
-        if (is_among(names, key) || is_among(more, key))
+        if (child->refused || is_among(names, key) || is_among(more, key))
             continue;
         char place[PATH_SIZE], help[640];
         bt_reader_join(place, sizeof place, path, key);

@@ -3,64 +3,16 @@
 #define BT_STUDY_STUDY_H
 
 #include "base/distribution.h"
+#include "campaign/params.h"
 #include "landing/landing.h"
+#include "reliability/params.h"
 #include "rigs/rigs.h"
 #include "study/measured.h"
+#include "surrogate/params.h"
 
 #include <stdint.h>
 
 enum { BT_INPUT_MAX = 32, BT_CONDITION_MAX = 64, BT_PATH_MAX = 128 };
-
-/// sobol, latin_hypercube, full_factorial, monte_carlo, conditions
-extern const char* const bt_design_names[];
-enum {
-    BT_DESIGN_SOBOL,
-    BT_DESIGN_LATIN_HYPERCUBE,
-    BT_DESIGN_FULL_FACTORIAL,
-    BT_DESIGN_MONTE_CARLO,
-    BT_DESIGN_CONDITIONS
-};
-
-#define BT_CAMPAIGN_FIELDS(F)                                                                      \
-    F(CHOICE, design, bt_design_names, OPTIONAL, 0, 0, 0, "Sec. 5.2",                              \
-      "design of experiments over the box of `bounds` (monte_carlo: over the distributions; "      \
-      "conditions: over the distributions of all conditions together)")                            \
-    F(PLAIN, unsure, _, OPTIONAL, 0.3, 0, 0.9, "",                                                 \
-      "conditions: share of each round's landings where the classifier is unsure; 0: no rounds")   \
-    F(COUNT, samples, _, OPTIONAL, 4096, 1, 1e9, "Sec. 5.2",                                       \
-      "number of landings; the paper ran 42,000")                                                  \
-    F(COUNT, seed, _, OPTIONAL, 1, 0, 9e15, "", "key of all random numbers of the study")          \
-    F(COUNT, threads, _, OPTIONAL, 0, 0, 4096, "",                                                 \
-      "threads; 0 for one per core. Never changes a result")                                       \
-    F(PLAIN, max_failed, _, OPTIONAL, 0.01, 0, 1, "",                                              \
-      "share of failed runs above which the campaign is in error")
-BT_DECLARE_GROUP(campaign, BT_CAMPAIGN_FIELDS)
-
-#define BT_SURROGATE_FIELDS(F)                                                                     \
-    F(LIST, C, 1, OPTIONAL, 0, 1e-6, 1e12, "Eq. 19",                                               \
-      "penalties tried by cross-validation; default 10^0..10^5")                                   \
-    F(LIST, gamma, 1, OPTIONAL, 0, 1e-6, 1e6, "Eq. 20",                                            \
-      "kernel widths tried by cross-validation; default 0.1..10, on standardised inputs")          \
-    F(COUNT, folds, _, OPTIONAL, 5, 2, 100, "Sec. 5.2", "folds of the cross-validation")           \
-    F(PLAIN, holdout, _, OPTIONAL, 0.2, 0.01, 0.9, "",                                             \
-      "share of the landings kept out of training to measure the accuracy on")                     \
-    F(FLAG, features, _, OPTIONAL, 1, 0, 1, "",                                                    \
-      "learn from the wheels' height over the cable too, which geometry and inputs tell")
-BT_DECLARE_GROUP(surrogate, BT_SURROGATE_FIELDS)
-
-extern const char* const bt_others_names[]; ///< scatter, frozen
-enum { BT_OTHERS_SCATTER, BT_OTHERS_FROZEN };
-
-#define BT_RELIABILITY_FIELDS(F)                                                                   \
-    F(COUNT, samples, _, OPTIONAL, 1000000, 100, 1e10, "Sec. 5.3",                                 \
-      "points per condition on the surrogate")                                                     \
-    F(COUNT, truth_runs, _, OPTIONAL, 200, 0, 1e9, "",                                             \
-      "fresh simulated landings per condition that check and correct the surrogate")               \
-    F(CHOICE, others, bt_others_names, OPTIONAL, 0, 0, 0, "Sec. 5.3",                              \
-      "what the other inputs do in a condition: scatter about their means, or stay frozen at "     \
-      "them")                                                                                      \
-    F(COUNT, seed, _, OPTIONAL, 2, 0, 9e15, "", "key of the random numbers of the analysis")
-BT_DECLARE_GROUP(reliability, BT_RELIABILITY_FIELDS)
 
 /// One random input, or one axis of the design.
 typedef struct bt_input {
@@ -99,10 +51,6 @@ typedef struct bt_rig_input {
 typedef struct bt_file_identity {
     uint64_t device, inode;
 } bt_file_identity;
-
-/// Whether a design draws from the distributions of `uncertainty` (its axes are the random inputs);
-/// the others fill the box of `bounds`.
-bool bt_design_is_random(int design);
 
 typedef struct bt_study {
     char title[256]; ///< the file's name when it gives none

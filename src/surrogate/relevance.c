@@ -1,6 +1,6 @@
 #include "surrogate/relevance.h"
 
-#include "base/tasks.h"
+#include "base/threads.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "base/tasks.h"
+#include "base/threads.h"
 #include "surrogate/loss.h"
 #include "surrogate/relevance.h"
 #include "surrogate/training.h"

@@ -39,7 +39,7 @@ typedef struct bt_surrogate_scores {
     int train_count, train_correct;
     int holdout_count, holdout_correct;
     bt_interval holdout_ci95; ///< Clopper-Pearson, of the hold-out accuracy
-    int confusion[2][2];      ///< hold-out counts [truth][answer], 0 missed, 1 engaged
+    int confusion[2][2];      ///< hold-out counts [outcome][prediction], 0 missed, 1 engaged
     int cv_count, cv_correct; ///< counts of the chosen grid point
     double seconds;           ///< model selection and training, wall clock
 } bt_surrogate_scores;

@@ -9,7 +9,7 @@
 #define SMALL                                                                                      \
     "--set deck.cable.mesh.fine_length='0.2 m' --set deck.cable.mesh.medium_length='0.3 m' "       \
     "--set deck.cable.mesh.coarse_length='0.6 m' --set campaign.samples=96 "                       \
-    "--set reliability.samples=20000 --set reliability.truth_runs=2 "
+    "--set reliability.samples=20000 --set reliability.high_fidelity_runs=2 "
 
 /// The number after "key": in a JSON text.
 static double json_number(const char* text, const char* key) {
@@ -401,7 +401,7 @@ static void the_whole_chain_at_small_size(void** state) {
                                        "corrected",
                                        "corrected_ci95",
                                        "samples",
-                                       "truth_runs",
+                                       "high_fidelity_runs",
                                        "disagreements",
                                        "reweighted",
                                        "corrected_unseen",

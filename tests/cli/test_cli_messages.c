@@ -172,7 +172,7 @@ static void too_many_failed_checks_end_the_analysis(void** state) {
         assert_int_equal(bolter(f, "study %/study.yaml -q -o %/s " COARSE
                                    "--set campaign.design=sobol --set campaign.samples=48 --set "
                                    "reliability.samples=2000 "
-                                   "--set reliability.truth_runs=4"),
+                                   "--set reliability.high_fidelity_runs=4"),
                          4);
         assert_has(f->err,
                    "high-fidelity runs failed, more than campaign.max_failed = 0.01 allows; "

@@ -394,7 +394,7 @@ static void a_campaign_runs_stops_goes_on_and_is_read_and_fitted(void** state) {
     int lines = 0;
     const bt_reliability_def reliability = {.size = sizeof reliability};
     assert_int_equal(bt_case_set_text(c, "reliability.samples", "2000"), BT_OK);
-    assert_int_equal(bt_case_set_text(c, "reliability.truth_runs", "0"), BT_OK);
+    assert_int_equal(bt_case_set_text(c, "reliability.high_fidelity_runs", "0"), BT_OK);
     assert_int_equal(bt_case_reliability(c, &reliability, see_reliability, &lines), BT_OK);
     assert_int_equal(lines, 25);
     bt_case_close(c);

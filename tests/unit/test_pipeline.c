@@ -15,7 +15,7 @@ static bt_study* make(const char* directory) {
                                 "deck.cable.mesh.coarse_length=0.6 m",
                                 "campaign.samples=24",
                                 "reliability.samples=500",
-                                "reliability.truth_runs=0"};
+                                "reliability.high_fidelity_runs=0"};
     assert_int_equal(bt_study_read("studies/reference/study.yaml", sets, 6, study, NULL), BT_OK);
     snprintf(study->directory, sizeof study->directory, "%s", directory);
     return study;

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* A study of two inputs and a constant one, whose truth is a straight line. */
+/* A study of two inputs and a constant one, whose model is a straight line. */
 
 static const bt_field fields[3] = {
     {.kind = BT_FIELD_REAL, .name = "sink_speed", .unit = "mps"},
@@ -15,7 +15,7 @@ static const bt_field fields[3] = {
     {.kind = BT_FIELD_REAL, .name = "off_centre", .unit = "m"},
 };
 
-static bt_study* make_study(int truth_runs) {
+static bt_study* make_study(int high_fidelity_runs) {
     bt_study* s = calloc(1, sizeof *s);
     assert_non_null(s);
     static const char* const path[] = {"landing.sink_speed", "landing.pitch", "landing.off_centre"};
@@ -36,7 +36,8 @@ static bt_study* make_study(int truth_runs) {
     s->condition_count = 2;
     s->conditions[0] = (bt_condition){0, 1.5};
     s->conditions[1] = (bt_condition){1, -0.5};
-    s->reliability = (bt_reliability_params){.samples = 60000, .truth_runs = truth_runs, .seed = 3};
+    s->reliability = (bt_reliability_params){
+        .samples = 60000, .high_fidelity_runs = high_fidelity_runs, .seed = 3};
     return s;
 }
 
@@ -81,7 +82,7 @@ static void rows_hold_the_known_probabilities(void** state) {
     bt_study* study = make_study(300);
     bt_surrogate s = train_surrogate();
     bt_reliability_result* r = calloc(1, sizeof *r);
-    const bt_reliability_options options = {.truth = line, .threads = 2};
+    const bt_reliability_options options = {.high_fidelity = line, .threads = 2};
     assert_int_equal(bt_reliability_run(study, &s, &options, r, NULL), BT_OK);
     assert_int_equal(r->condition_count, 2);
     const bt_reliability_row* row[] = {&r->condition[0], &r->condition[1], &r->overall};
@@ -92,8 +93,8 @@ static void rows_hold_the_known_probabilities(void** state) {
         BT_ASSERT_NEAR(row[i]->surrogate, exact[i], 0, 0.02); // hold-out error of some percent
         assert_true(row[i]->corrected_ci95.least < exact[i]);
         assert_true(row[i]->corrected_ci95.greatest > exact[i]);
-        assert_int_equal(row[i]->truth_runs, 300);
-        assert_int_equal(row[i]->truth_failed, 0);
+        assert_int_equal(row[i]->high_fidelity_runs, 300);
+        assert_int_equal(row[i]->high_fidelity_failed, 0);
         assert_true(row[i]->samples == 60000);
         assert_true(row[i]->outside_missed <= row[i]->surrogate &&
                     row[i]->surrogate <= row[i]->outside_engaged);
@@ -129,7 +130,7 @@ static void without_true_runs_nothing_is_claimed(void** state) {
     bt_study* study = make_study(0);
     bt_surrogate s = train_surrogate();
     bt_reliability_result* r = calloc(1, sizeof *r);
-    const bt_reliability_options options = {.truth = line};
+    const bt_reliability_options options = {.high_fidelity = line};
     assert_int_equal(bt_reliability_run(study, &s, &options, r, NULL), BT_OK);
     assert_true(isnan(r->overall.corrected) && isnan(r->overall.corrected_ci95.least));
     assert_true(r->overall.surrogate_ci95.greatest > r->overall.surrogate_ci95.least);
@@ -145,7 +146,7 @@ static void results_are_the_same_for_1_2_and_3_threads(void** state) {
     bt_reliability_result* r[3];
     for (int i = 0; i < 3; ++i) {
         r[i] = calloc(1, sizeof *r[i]);
-        const bt_reliability_options options = {.truth = line, .threads = i + 1};
+        const bt_reliability_options options = {.high_fidelity = line, .threads = i + 1};
         assert_int_equal(bt_reliability_run(study, &s, &options, r[i], NULL), BT_OK);
         r[i]->seconds = r[i]->overall.seconds = 0;
         for (int c = 0; c < 2; ++c)
@@ -172,14 +173,14 @@ static void errors_are_passed_up(void** state) {
     bt_study* study = make_study(10);
     bt_surrogate s = train_surrogate();
     bt_reliability_result* r = calloc(1, sizeof *r);
-    const bt_reliability_options interrupted = {.truth = refuse};
+    const bt_reliability_options interrupted = {.high_fidelity = refuse};
     assert_int_equal(bt_reliability_run(study, &s, &interrupted, r, NULL), BT_ERR_INTERRUPTED);
     atomic_int stop = 1;
-    const bt_reliability_options stopped = {.truth = line, .stop = &stop};
+    const bt_reliability_options stopped = {.high_fidelity = line, .stop = &stop};
     assert_int_equal(bt_reliability_run(study, &s, &stopped, r, NULL), BT_ERR_INTERRUPTED);
     snprintf(s.path[1], sizeof s.path[1], "landing.roll");
     bt_diag diag = {0};
-    const bt_reliability_options plain = {.truth = line};
+    const bt_reliability_options plain = {.high_fidelity = line};
     assert_int_equal(bt_reliability_run(study, &s, &plain, r, &diag), BT_ERR_INPUT);
     assert_int_equal(diag.errors, 1);
     free(r);
@@ -203,7 +204,8 @@ static void estimate_without_disagreement_is_the_surrogate_with_the_exact_bound(
 
 static void estimate_weights_the_strata_by_their_share(void** state) {
     (void)state;
-    // missed near: 1 of 4 is engaged in truth; engaged far: 2 of 10 are missed
+    // predicted missed, boundary: 1 of 4 is engaged; predicted engaged, interior: 2 of 10 are
+    // missed
     const bt_stratum strata[BT_STRATA] = {
         [1] = {250000, 4, 4, 0, 1}, [2] = {500000, 10, 10, 0, 2}, [3] = {250000, 5, 5, 0, 0}};
     const bt_check_result r = bt_check_estimate(strata);
@@ -261,9 +263,9 @@ static void plans_ask_every_stratum_and_pick_without_repetition(void** state) {
         total += check.stratum[k].pool;
     }
     assert_true(total == N);
-    // four times the expected error is near, and gets more than its share
-    const int64_t near = check.stratum[1].pool + check.stratum[3].pool;
-    BT_ASSERT_NEAR((double)near / N, 0.04, 0, 1e-3);
+    // four times the expected error is boundary, and gets more than its share
+    const int64_t boundary = check.stratum[1].pool + check.stratum[3].pool;
+    BT_ASSERT_NEAR((double)boundary / N, 0.04, 0, 1e-3);
     assert_true(check.stratum[1].planned + check.stratum[3].planned > 0.04 * RUNS);
     free(check.picked);
     // more runs than samples: all of them, once
@@ -290,7 +292,7 @@ static void the_printed_table_names_conditions_and_what_was_not_checked(void** s
     bt_study* study = make_study(20);
     bt_surrogate s = train_surrogate();
     bt_reliability_result* r = calloc(1, sizeof *r);
-    const bt_reliability_options options = {.truth = line};
+    const bt_reliability_options options = {.high_fidelity = line};
     assert_int_equal(bt_reliability_run(study, &s, &options, r, NULL), BT_OK);
     char* text = printed(r);
     assert_non_null(strstr(text, "landing.sink_speed"));
@@ -300,7 +302,7 @@ static void the_printed_table_names_conditions_and_what_was_not_checked(void** s
     assert_non_null(strstr(text, " of 20 "));
     assert_non_null(strstr(text, "failed: 0 of 60 high-fidelity runs"));
     assert_null(strstr(text, "not checked"));
-    r->overall.truth_runs = 0;
+    r->overall.high_fidelity_runs = 0;
     free(text);
     text = printed(r);
     assert_non_null(strstr(text, "not checked"));

@@ -260,6 +260,19 @@ static void conditions_move_means_of_random_inputs_inside_the_box(void** state) 
                 "wanted here\n");
 }
 
+static void a_key_keeps_its_former_name(void** state) {
+    (void)state;
+    bt_study s;
+    assert_reads("reliability:\n  truth_runs: 17\n", &s);
+    assert_int_equal(s.reliability.high_fidelity_runs, 17);
+    assert_non_null(strstr(s.text, "high_fidelity_runs: 17"));
+    bt_study_destroy(&s);
+    assert_says(
+        "reliability:\n  truth_runs: 17\n  high_fidelity_runs: 17\n",
+        "s.yaml:2:3: error: truth_runs: stands in the place of high_fidelity_runs; give one of "
+        "them\n");
+}
+
 static void mistakes_in_one_chapter_do_not_hide_those_in_another(void** state) {
     (void)state;
     assert_says(
@@ -301,6 +314,7 @@ int main(void) {
         cmocka_unit_test(random_inputs_must_be_axes_of_the_design),
         cmocka_unit_test(levels_belong_to_axes_of_a_full_factorial),
         cmocka_unit_test(conditions_move_means_of_random_inputs_inside_the_box),
+        cmocka_unit_test(a_key_keeps_its_former_name),
         cmocka_unit_test(mistakes_in_one_chapter_do_not_hide_those_in_another),
         cmocka_unit_test(there_is_room_for_so_many_inputs_and_conditions),
     };

@@ -16,7 +16,7 @@ typedef struct world {
     double limit, believed;
     double pocket_from, pocket_to;
     double failing_from, failing_to;
-    int truth_runs;
+    int high_fidelity_runs;
     double expected_error;
 } world;
 
@@ -79,9 +79,10 @@ static coverage repeat(const world* w) {
         const bt_classifier surrogate = {.classify = believe, .user = (void*)w, .dims = 1};
         bt_reliability_row row = {.unit = ""};
         assert_int_equal(bt_reliability_condition(&sampler, &surrogate, SAMPLES, 1, try_it,
-                                                  (void*)w, w->truth_runs, w->expected_error, &row),
+                                                  (void*)w, w->high_fidelity_runs,
+                                                  w->expected_error, &row),
                          BT_OK);
-        assert_int_equal(row.truth_runs, w->truth_runs);
+        assert_int_equal(row.high_fidelity_runs, w->high_fidelity_runs);
         assert_true(row.corrected_ci95.greatest > row.corrected_ci95.least);
         assert_true(row.corrected_ci95.least >= 0 && row.corrected_ci95.greatest <= 1);
         c.below += row.corrected_ci95.least > r;
@@ -102,10 +103,11 @@ static coverage repeat(const world* w) {
     c.mean /= REPETITIONS;
     c.width /= REPETITIONS;
     c.bias_in_errors = (c.mean - r) / sqrt(square / REPETITIONS / REPETITIONS);
-    print_message("%-34s R %.5f  covered %.4f (missed %.4f below, %.4f above), disagreement "
-                  "%.4f, sampling %.4f; bias %+.1f errors; width %.4f, true runs alone %.4f\n",
-                  w->name, r, c.corrected, c.above, c.below, c.disagreement, c.surrogate,
-                  c.bias_in_errors, c.width, 2 * 1.96 * sqrt(r * (1 - r) / w->truth_runs));
+    print_message(
+        "%-34s R %.5f  covered %.4f (missed %.4f below, %.4f above), disagreement "
+        "%.4f, sampling %.4f; bias %+.1f errors; width %.4f, high-fidelity runs alone %.4f\n",
+        w->name, r, c.corrected, c.above, c.below, c.disagreement, c.surrogate, c.bias_in_errors,
+        c.width, 2 * 1.96 * sqrt(r * (1 - r) / w->high_fidelity_runs));
     return c;
 }
 
@@ -123,17 +125,17 @@ static void intervals_cover_a_surrogate_that_is_wrong_at_its_boundary(void** sta
     const world w = {.name = "wrong at its boundary",
                      .limit = 1.2,
                      .believed = 1.3,
-                     .truth_runs = 200,
+                     .high_fidelity_runs = 200,
                      .expected_error = 0.02};
     check_world(&w);
-    const world many = {.name = "the same, 1000 true runs",
+    const world many = {.name = "the same, 1000 high-fidelity runs",
                         .limit = 1.2,
                         .believed = 1.3,
-                        .truth_runs = 1000,
+                        .high_fidelity_runs = 1000,
                         .expected_error = 0.02};
     const coverage c = repeat(&many);
     assert_true(c.corrected >= LEAST_COVERAGE);
-    // Not bought by width: well below what the true runs alone would give.
+    // Not bought by width: well below what the high-fidelity runs alone would give.
     assert_true(c.width < 0.75 * 2 * 1.96 * sqrt(0.885 * 0.115 / 1000));
 }
 
@@ -144,7 +146,7 @@ static void intervals_cover_a_surrogate_that_is_wrong_far_from_its_boundary(void
                      .believed = 1.3,
                      .pocket_from = -0.5,
                      .pocket_to = -0.4,
-                     .truth_runs = 200,
+                     .high_fidelity_runs = 200,
                      .expected_error = 0.01};
     check_world(&w);
     const world both = {.name = "wrong here and there",
@@ -152,7 +154,7 @@ static void intervals_cover_a_surrogate_that_is_wrong_far_from_its_boundary(void
                         .believed = 1,
                         .pocket_from = -1.5,
                         .pocket_to = -1.2,
-                        .truth_runs = 200,
+                        .high_fidelity_runs = 200,
                         .expected_error = 0.02};
     check_world(&both);
 }
@@ -162,7 +164,7 @@ static void intervals_cover_a_surrogate_that_is_right(void** state) {
     const world w = {.name = "right everywhere",
                      .limit = 1,
                      .believed = 1,
-                     .truth_runs = 200,
+                     .high_fidelity_runs = 200,
                      .expected_error = 0.01};
     check_world(&w);
 }
@@ -172,41 +174,41 @@ static void intervals_cover_probabilities_near_0_and_1(void** state) {
     const world sure = {.name = "nearly always caught",
                         .limit = 3.3,
                         .believed = 3.2,
-                        .truth_runs = 200,
+                        .high_fidelity_runs = 200,
                         .expected_error = 0.001};
     check_world(&sure);
     const world hopeless = {.name = "nearly never caught",
                             .limit = -2.9,
                             .believed = -3,
-                            .truth_runs = 200,
+                            .high_fidelity_runs = 200,
                             .expected_error = 0.01};
     check_world(&hopeless);
     const world always = {.name = "the surrogate sees no miss",
                           .limit = 2.9,
                           .believed = 9,
-                          .truth_runs = 200,
+                          .high_fidelity_runs = 200,
                           .expected_error = 0.01};
     check_world(&always);
 }
 
 static void intervals_cover_with_few_true_runs(void** state) {
     (void)state;
-    const world w = {.name = "30 true runs",
+    const world w = {.name = "30 high-fidelity runs",
                      .limit = 0.5,
                      .believed = 0.8,
-                     .truth_runs = 30,
+                     .high_fidelity_runs = 30,
                      .expected_error = 0.1};
     check_world(&w);
 }
 
 static void intervals_cover_when_true_runs_fail(void** state) {
     (void)state;
-    const world w = {.name = "some true runs fail",
+    const world w = {.name = "some high-fidelity runs fail",
                      .limit = 1,
                      .believed = 1.1,
                      .failing_from = 0.95,
                      .failing_to = 1.05,
-                     .truth_runs = 200,
+                     .high_fidelity_runs = 200,
                      .expected_error = 0.02};
     check_world(&w);
 }

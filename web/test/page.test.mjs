@@ -80,7 +80,7 @@ test("playback puts the hook where the history has it", { skip }, async () => {
 test("a report shows the study, and what it says is never markup", { skip }, async () => {
   const study = join(folder, "study");
   run("study", "studies/reference/study.yaml", "--set", "campaign.samples=128", "--set", "reliability.samples=2000",
-    "--set", "reliability.truth_runs=4", "--set", "surrogate.C=[1000]", "--set", "surrogate.gamma=[0.1]",
+    "--set", "reliability.high_fidelity_runs=4", "--set", "surrogate.C=[1000]", "--set", "surrogate.gamma=[0.1]",
     "--set", `title=${hostile}`, "-o", study);
   const page = await open(join(study, "report.html"));
   assert.equal(await page.title(), hostile);

@@ -1,8 +1,8 @@
 /// Threads, the one place where they are started, and independent tasks on them. Which thread runs
 /// a task never shows in a result: a task writes only what is its own, and sums are made afterwards
 /// in task order.
-#ifndef BT_BASE_TASKS_H
-#define BT_BASE_TASKS_H
+#ifndef BT_BASE_THREADS_H
+#define BT_BASE_THREADS_H
 
 #include "base/status.h"
 

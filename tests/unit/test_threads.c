@@ -2,7 +2,7 @@
 #define _GNU_SOURCE /* sched_setaffinity */
 #include "near.h"
 
-#include "base/tasks.h"
+#include "base/threads.h"
 
 #include <sched.h>
 #include <stdatomic.h>

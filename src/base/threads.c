@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* sched_getaffinity */
-#include "base/tasks.h"
+#include "base/threads.h"
 
 #include <errno.h>
 #include <limits.h>
