@@ -35,7 +35,7 @@ static bt_status draw_round(void* user, bt_ledger* ledger, int64_t begin, int64_
     campaign_rounds* r = user;
     bt_evidence evidence;
     bt_surrogate classifier = {0};
-    BT_TRY(bt_evidence_read(ledger, r->study, begin, &evidence, diag));
+    BT_TRY(bt_evidence_read(ledger, r->study, begin, NULL, 0, &evidence, diag));
     bt_status status = bt_rounds_classifier(&r->rounds, &evidence, (int)begin, &classifier, NULL);
     if (status == BT_OK)
         status = bt_rounds_draw(&r->rounds, r->mixture, &classifier, (int)begin, (int)n,

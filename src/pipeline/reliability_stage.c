@@ -31,6 +31,10 @@ static char* table_key(const bt_study* study, const bt_surrogate* surrogate) {
             fprintf(out, "%s %d %a %a %a %a %a %a %a\n", study->inputs[i].path, d->kind, d->mean,
                     d->sd, d->lower, d->upper, d->mode, d->scale, d->shape);
     }
+    bt_event events[BT_EVENT_MAX];
+    const int event_count = bt_events_of(study, events);
+    for (int i = 0; i < event_count; ++i)
+        fprintf(out, "event %s: %s\n", events[i].name, events[i].text);
     for (int i = 0; i < study->condition_count; ++i)
         fprintf(out, "%d %a\n", study->conditions[i].input, study->conditions[i].mean);
     if (fclose(out) != 0) {
@@ -42,12 +46,14 @@ static char* table_key(const bt_study* study, const bt_surrogate* surrogate) {
 
 /// The landings of the ledger as evidence; *judged NULL when the design says nothing about the
 /// conditions.
-static bt_status judge(bt_study_directory* directory, bt_evidence* evidence, bt_judged** judged) {
+static bt_status judge(bt_study_directory* directory, const bt_event* events, int count,
+                       bt_evidence* evidence, bt_judged** judged) {
     const bt_study* study = directory->study;
     *judged = NULL;
     if (!bt_judged_possible(study))
         return BT_OK;
-    BT_TRY(bt_evidence_read(directory->ledger, study, INT64_MAX, evidence, directory->diag));
+    BT_TRY(bt_evidence_read(directory->ledger, study, INT64_MAX, events, count, evidence,
+                            directory->diag));
     const bt_status status = bt_judged_create(study, evidence, judged, directory->diag);
     if (status != BT_OK)
         bt_evidence_destroy(evidence);
@@ -62,10 +68,14 @@ static bt_status compute(bt_study_directory* directory, const bt_surrogate* surr
     bt_high_fidelity* high_fidelity = NULL;
     bt_evidence evidence = {0};
     bt_judged* judged = NULL;
-    BT_TRY(judge(directory, &evidence, &judged));
+    bt_event events[BT_EVENT_MAX];
+    const int event_count = bt_events_of(directory->study, events);
+    BT_TRY(judge(directory, events, event_count, &evidence, &judged));
     bt_status status = bt_high_fidelity_create(directory->study, threads, stage->stop,
                                                stage->backend, &high_fidelity);
     const bt_reliability_options options = {.judged = judged,
+                                            .events = events,
+                                            .event_count = event_count,
                                             .high_fidelity = bt_high_fidelity_run,
                                             .high_fidelity_user = high_fidelity,
                                             .threads = threads,

@@ -90,7 +90,7 @@ void bt_judged_destroy(bt_judged* judged) {
 }
 
 bt_status bt_judged_sample(const bt_judged* judged, const bt_sampler* sampler, int64_t samples,
-                           int threads, int64_t* hits) {
+                           int threads, const bt_pool* pool, int64_t* hits) {
     *hits = 0;
     const int first = judged->begin[0], all = judged->begin[judged->rounds] - first;
     for (int i = 0; i < judged->rounds; ++i) {
@@ -102,7 +102,7 @@ bt_status bt_judged_sample(const bt_judged* judged, const bt_sampler* sampler, i
         int64_t engaged = 0;
         if (to > from)
             BT_TRY(bt_monte_carlo_range(sampler, bt_surrogate_classifier_get(judged->classifier[i]),
-                                        from, to - from, threads, &engaged));
+                                        from, to - from, threads, pool, &engaged));
         *hits += engaged;
     }
     return BT_OK;

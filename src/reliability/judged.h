@@ -36,7 +36,9 @@ void bt_judged_destroy(bt_judged* judged);
 
 /// Samples of a condition that the rounds' classifiers call engaged: sample i belongs to the round
 /// in proportion to its landings. hits of `samples`. BT_ERR_MEMORY.
+/// @param pool  may be NULL; keeps the labels of the first samples
 BT_CHECKED bt_status bt_judged_sample(const bt_judged* judged, const bt_sampler* sampler,
-                                      int64_t samples, int threads, int64_t* hits);
+                                      int64_t samples, int threads, const bt_pool* pool,
+                                      int64_t* hits);
 
 #endif

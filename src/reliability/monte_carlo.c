@@ -51,7 +51,8 @@ static void run_batch(const job* j, scratch* s, int64_t first, int n) {
         return;
     const int64_t left = j->pool->count - first, kept = left < n ? left : n;
     memcpy(j->pool->label + first, s->label, (size_t)kept * sizeof *s->label);
-    memcpy(j->pool->decision + first, s->decision, (size_t)kept * sizeof *s->decision);
+    if (j->pool->decision)
+        memcpy(j->pool->decision + first, s->decision, (size_t)kept * sizeof *s->decision);
 }
 
 static bt_status run_task(void* user, int task, int worker) {
@@ -96,10 +97,11 @@ bt_status bt_monte_carlo(const bt_sampler* sampler, const bt_classifier* classif
 }
 
 bt_status bt_monte_carlo_range(const bt_sampler* sampler, const bt_classifier* classifier,
-                               int64_t first, int64_t samples, int threads, int64_t* engaged) {
+                               int64_t first, int64_t samples, int threads, const bt_pool* pool,
+                               int64_t* engaged) {
     bt_tally tally;
     const bt_status status =
-        run_range(sampler, classifier, first, first + samples, threads, NULL, &tally);
+        run_range(sampler, classifier, first, first + samples, threads, pool, &tally);
     *engaged = tally.engaged;
     return status;
 }

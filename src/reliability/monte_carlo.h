@@ -26,7 +26,7 @@ typedef struct bt_tally {
 typedef struct bt_pool {
     int count;
     int8_t* label;   ///< [count]
-    float* decision; ///< [count]
+    float* decision; ///< [count]; NULL: not kept
 } bt_pool;
 
 /// Draws and labels samples 0 .. samples - 1. The same result for any number of threads.
@@ -38,8 +38,10 @@ BT_CHECKED bt_status bt_monte_carlo(const bt_sampler* sampler, const bt_classifi
                                     bt_tally* tally);
 
 /// How many of the samples first .. first + samples - 1 are labelled engaged.
+/// @param pool  may be NULL; filled at the samples' own places
 BT_CHECKED bt_status bt_monte_carlo_range(const bt_sampler* sampler,
                                           const bt_classifier* classifier, int64_t first,
-                                          int64_t samples, int threads, int64_t* engaged);
+                                          int64_t samples, int threads, const bt_pool* pool,
+                                          int64_t* engaged);
 
 #endif

@@ -36,7 +36,7 @@ void bt_pool_rows_destroy(bt_pool_rows* rows) {
     free(rows);
 }
 
-static double* weight_of(const bt_pool_rows* p, int component) {
+double* bt_pool_rows_weight(const bt_pool_rows* p, int component) {
     return p->weight + (size_t)component * ((size_t)p->judged->evidence->count + 1);
 }
 
@@ -52,7 +52,7 @@ bt_status bt_pool_rows_fill(bt_pool_rows* p, int component, const bt_sampler* sa
     const bt_evidence* e = j->evidence;
     const int judged = judged_count(j), all = e->count;
     bt_cut* cut = &p->cut[component];
-    double* weight = weight_of(p, component);
+    double* weight = bt_pool_rows_weight(p, component);
     if (all == 0)
         return BT_OK;
     *cut = bt_pooled_cut(j->mixture, j->design, component, judged ? judged : all, j->least,
@@ -64,7 +64,7 @@ bt_status bt_pool_rows_fill(bt_pool_rows* p, int component, const bt_sampler* sa
     row->effective_landings = plain.effective;
     bt_pooled pooled = plain;
     if (judged) {
-        BT_TRY(bt_judged_sample(j, sampler, samples, threads, &p->hits[component]));
+        BT_TRY(bt_judged_sample(j, sampler, samples, threads, NULL, &p->hits[component]));
         p->samples = samples;
         pooled = bt_pooled_estimate(e, j->engaged, weight, cut, p->hits[component], samples);
     }
@@ -102,9 +102,10 @@ void bt_pool_rows_differ(const bt_pool_rows* p, const bt_study* study,
             !result->condition[to].pooled || !result->condition[from].pooled)
             continue;
         const double means = (double)(p->hits[to + 1] - p->hits[from + 1]) / (double)p->samples;
-        const bt_pooled d = bt_pooled_difference(
-            j->evidence, j->engaged, weight_of(p, to + 1), weight_of(p, from + 1), &p->cut[to + 1],
-            &p->cut[from + 1], means, apart(p, to + 1, from + 1));
+        const bt_pooled d =
+            bt_pooled_difference(j->evidence, j->engaged, bt_pool_rows_weight(p, to + 1),
+                                 bt_pool_rows_weight(p, from + 1), &p->cut[to + 1],
+                                 &p->cut[from + 1], means, apart(p, to + 1, from + 1));
         result->difference[result->difference_count++] =
             (bt_reliability_difference){from, to, d.value, d.ci95};
     }

@@ -17,6 +17,9 @@ BT_CHECKED bt_status bt_pool_rows_create(const bt_judged* judged, int conditions
                                          bt_pool_rows** made);
 void bt_pool_rows_destroy(bt_pool_rows* rows);
 
+/// [landings of the evidence] the weights of a component, once its row is filled.
+double* bt_pool_rows_weight(const bt_pool_rows* rows, int component);
+
 /// Fills the pooled numbers of a row: the reweighted ones, and the corrected ones unless the
 /// condition lies beyond the design and has fresh runs of its own. Component 0 is the study as it
 /// stands, component c + 1 its condition c.

@@ -1,4 +1,4 @@
-#include "reliability/pool_rows.h"
+#include "reliability/event_rows.h"
 
 #include "base/clock.h"
 
@@ -191,7 +191,7 @@ static bt_reliability_classifier describe(const bt_surrogate* s) {
     return c;
 }
 
-static bt_status evaluate_all(const evaluation* e, bt_reliability_result* result) {
+static bt_status evaluate_all(const evaluation* e, bt_reliability_result* result, bt_diag* diag) {
     const int total = e->study->condition_count + 1;
     const bt_reliability_options* o = e->options;
     for (int c = 0; c < total; ++c) {
@@ -206,6 +206,7 @@ static bt_status evaluate_all(const evaluation* e, bt_reliability_result* result
     if (e->pool) {
         result->landings += o->judged->evidence->count;
         bt_pool_rows_differ(e->pool, e->study, result);
+        BT_TRY(bt_event_rows_fill(e->study, e->pool, o->events, o->event_count, o, result, diag));
     }
     result->classifier = describe(e->surrogate);
     bt_reliability_warn(e->surrogate, result);
@@ -223,7 +224,7 @@ bt_status bt_reliability_run(const bt_study* study, const bt_surrogate* surrogat
     if (options->judged)
         status = bt_pool_rows_create(options->judged, study->condition_count + 1, &e.pool);
     if (status == BT_OK)
-        status = evaluate_all(&e, result);
+        status = evaluate_all(&e, result, diag);
     bt_pool_rows_destroy(e.pool);
     bt_surrogate_classifier_destroy(e.classifier);
     result->seconds = bt_clock_s() - begun_s;

@@ -4,8 +4,10 @@
 #define BT_RELIABILITY_RELIABILITY_H
 
 #include "reliability/check.h"
+#include "reliability/event.h"
 #include "reliability/high_fidelity.h"
 #include "reliability/judged.h"
+#include "reliability/zone.h"
 #include "surrogate/surrogate.h"
 
 /// One condition: samples of the input distributions on the surrogate, and high-fidelity runs of
@@ -47,6 +49,24 @@ typedef struct bt_reliability_difference {
     bt_interval ci95;
 } bt_reliability_difference;
 
+/// The probability of an event, from the landings of the ledger as the corrected number of a row.
+typedef struct bt_event_estimate {
+    double probability; ///< NAN: the zone has none
+    bt_interval ci95;   ///< covers sampling, the classifiers' error and what was never seen
+    double sampling;    ///< half-width that what was seen gives
+    double unseen;      ///< what errors of a kind never seen add to it
+    double classifier;  ///< share that the event's classifiers predict; NAN: too few landings
+} bt_event_estimate;
+
+/// One event under every condition and in every touchdown zone.
+typedef struct bt_event_row {
+    char name[BT_EVENT_NAME_SIZE], text[BT_EVENT_TEXT_SIZE];
+    int judged, disagreed; ///< landings that a classifier judged before it learnt from them, and
+                           ///< wrongly: its error on landings it never saw
+    bt_event_estimate condition[BT_CONDITION_MAX], overall;
+    bt_event_estimate zone[BT_ZONE_MAX]; ///< given the zone, every input about its own mean
+} bt_event_row;
+
 /// The surrogate behind the table.
 typedef struct bt_reliability_classifier {
     double holdout_accuracy; ///< NAN when nothing was held out
@@ -65,6 +85,9 @@ typedef struct bt_reliability_result {
     int64_t landings; ///< in the ledger, and fresh runs: each counted once
     int difference_count;
     bt_reliability_difference difference[BT_CONDITION_MAX]; ///< neighbours of one input
+    int event_count;
+    bt_event_row event[BT_EVENT_MAX];
+    bt_zones zones;
     int warning_count;
     char warning[BT_WARNING_MAX][BT_WARNING_SIZE]; ///< what the reader of the table must know
     double seconds;
@@ -75,6 +98,8 @@ typedef void bt_reliability_watch(void* user, int done, int total);
 
 typedef struct bt_reliability_options {
     const bt_judged* judged; ///< the landings of the ledger; NULL: the estimates use none
+    const bt_event* events;  ///< [event_count] that the landings were read for
+    int event_count;
     bt_high_fidelity_batch*
         high_fidelity; ///< NULL: no high-fidelity runs, whatever the study asks for
     void* high_fidelity_user;
