@@ -33,6 +33,7 @@ BT_CHECKED bt_status bt_stage_fit(bt_study_directory* directory, bool again,
 typedef struct bt_reliability_file {
     const char* name; ///< "reliability.json"; NULL ends a list
     bt_status (*write)(FILE* out, const bt_reliability_result* result);
+    bool events; ///< kept only of a study that has events
 } bt_reliability_file;
 
 typedef struct bt_reliability_stage {

@@ -116,7 +116,8 @@ static bt_status renew(bt_study_directory* directory, const bt_surrogate* surrog
     bt_status status =
         result ? compute(directory, surrogate, stage, result, &failed) : BT_ERR_MEMORY;
     for (const bt_reliability_file* f = stage->files; f->name && status == BT_OK; ++f)
-        status = store(directory, f, result);
+        if (!f->events || result->event_count > 0)
+            status = store(directory, f, result);
     if (status == BT_OK && stage->result)
         *stage->result = *result;
     if (status == BT_OK) // a table with too many failures is there to be read, but is no result
@@ -127,12 +128,19 @@ static bt_status renew(bt_study_directory* directory, const bt_surrogate* surrog
     return status;
 }
 
-static bool all_there(const bt_study_directory* directory, const bt_reliability_file* files) {
+static bool is_there(const bt_study_directory* directory, const char* name) {
     char path[BT_FILE_PATH_MAX];
+    return bt_study_directory_file(directory, name, path) == BT_OK && access(path, R_OK) == 0;
+}
+
+static bool all_there(const bt_study_directory* directory, const bt_reliability_file* files) {
+    bt_event events[BT_EVENT_MAX];
+    const bool any =
+        bt_events_of(directory->study, events) > 0 && bt_judged_possible(directory->study);
+    bool whole = true;
     for (const bt_reliability_file* f = files; f->name; ++f)
-        if (bt_study_directory_file(directory, f->name, path) != BT_OK || access(path, R_OK) != 0)
-            return false;
-    return true;
+        whole = whole && ((f->events && !any) || is_there(directory, f->name));
+    return whole;
 }
 
 bt_status bt_stage_reliability(bt_study_directory* directory, const bt_surrogate* surrogate,

@@ -113,7 +113,7 @@ void bt_pool_rows_differ(const bt_pool_rows* p, const bt_study* study,
 
 /* ---- what the reader must know ---- */
 
-static void warn(bt_reliability_result* r, const char* text) {
+void bt_reliability_note(bt_reliability_result* r, const char* text) {
     if (r->warning_count < BT_WARNING_MAX)
         snprintf(r->warning[r->warning_count++], BT_WARNING_SIZE, "%s", text);
 }
@@ -161,7 +161,7 @@ void bt_reliability_warn(const bt_surrogate* surrogate, bt_reliability_result* r
         snprintf(text, sizeof text,
                  "%d of %d rows have no corrected number: nothing but the surrogate is behind them",
                  n, rows);
-        warn(r, text);
+        bt_reliability_note(r, text);
     }
     n = count_rows(r, error_exceeds, error);
     if (n) {
@@ -174,7 +174,7 @@ void bt_reliability_warn(const bt_surrogate* surrogate, bt_reliability_result* r
         else
             snprintf(text, sizeof text,
                      "the surrogate's error is not known: no landing was held out");
-        warn(r, text);
+        bt_reliability_note(r, text);
     }
     n = count_rows(r, surrogate_beyond, error);
     if (n) {
@@ -182,7 +182,7 @@ void bt_reliability_warn(const bt_surrogate* surrogate, bt_reliability_result* r
                  "the surrogate alone disagrees with the corrected number in %d of %d rows (their "
                  "intervals do not meet)",
                  n, rows);
-        warn(r, text);
+        bt_reliability_note(r, text);
     }
     n = count_rows(r, columns_apart, error);
     if (n) {
@@ -190,6 +190,6 @@ void bt_reliability_warn(const bt_surrogate* surrogate, bt_reliability_result* r
                  "reweighted and corrected numbers disagree in %d of %d rows: with 95 %% intervals "
                  "that is rare; look for a change of the model between landings",
                  n, rows);
-        warn(r, text);
+        bt_reliability_note(r, text);
     }
 }

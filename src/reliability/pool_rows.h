@@ -30,6 +30,9 @@ BT_CHECKED bt_status bt_pool_rows_fill(bt_pool_rows* rows, int component, const 
 void bt_pool_rows_differ(const bt_pool_rows* rows, const bt_study* study,
                          bt_reliability_result* result);
 
+/// Writes down what the reader of the table must know.
+void bt_reliability_note(bt_reliability_result* result, const char* text);
+
 /// Writes down where columns disagree and where the surrogate cannot carry the number.
 void bt_reliability_warn(const bt_surrogate* surrogate, bt_reliability_result* result);
 

@@ -208,6 +208,9 @@ static bt_status evaluate_all(const evaluation* e, bt_reliability_result* result
         bt_pool_rows_differ(e->pool, e->study, result);
         BT_TRY(bt_event_rows_fill(e->study, e->pool, o->events, o->event_count, o, result, diag));
     }
+    if (!e->pool && o->event_count > 0)
+        bt_reliability_note(result, "the events have no numbers: landings of this design, or with "
+                                    "inputs frozen, say nothing about the conditions");
     result->classifier = describe(e->surrogate);
     bt_reliability_warn(e->surrogate, result);
     return BT_OK;

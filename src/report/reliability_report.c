@@ -72,6 +72,8 @@ void bt_reliability_write_json(bt_json* json, const bt_reliability_result* resul
     for (int i = 0; i < result->difference_count; ++i)
         write_difference(json, result, &result->difference[i]);
     bt_json_end_array(json);
+    if (result->event_count > 0)
+        bt_reliability_write_events(json, result);
     bt_json_integer(json, "landings", result->landings);
     write_classifier(json, &result->classifier);
     bt_json_begin_array(json, "warnings");

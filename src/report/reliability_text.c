@@ -138,13 +138,26 @@ bt_report_table* bt_reliability_table(const bt_reliability_result* result) {
 
 static bt_status write_text(FILE* out, const bt_reliability_result* result) {
     bt_report_table* table = bt_reliability_table(result);
-    const bt_status status = bt_report_table_print(table, out);
+    bt_status status = bt_report_table_print(table, out);
     bt_report_table_destroy(table);
+    if (status != BT_OK || result->event_count == 0)
+        return status;
+    fputc('\n', out);
+    bt_report_table* events = bt_reliability_event_table(result, false);
+    status = bt_report_table_print(events, out);
+    bt_report_table_destroy(events);
     return status;
 }
 
 static bt_status write_csv(FILE* out, const bt_reliability_result* result) {
     bt_report_table* table = bt_reliability_table(result);
+    const bt_status status = bt_report_table_csv(table, out);
+    bt_report_table_destroy(table);
+    return status;
+}
+
+static bt_status write_event_csv(FILE* out, const bt_reliability_result* result) {
+    bt_report_table* table = bt_reliability_event_table(result, true);
     const bt_status status = bt_report_table_csv(table, out);
     bt_report_table_destroy(table);
     return status;
@@ -157,8 +170,9 @@ static bt_status write_json(FILE* out, const bt_reliability_result* result) {
 }
 
 const bt_reliability_file bt_reliability_files[] = {
-    {"reliability.txt", write_text},
-    {"reliability.csv", write_csv},
-    {"reliability.json", write_json},
-    {NULL, NULL},
+    {"reliability.txt", write_text, false},
+    {"reliability.csv", write_csv, false},
+    {"reliability.json", write_json, false},
+    {"events.csv", write_event_csv, true},
+    {NULL, NULL, false},
 };
