@@ -47,12 +47,6 @@ extern const bt_verb bt_verb_check, bt_verb_keys, bt_verb_land, bt_verb_campaign
     bt_verb_fit, bt_verb_reliability, bt_verb_study, bt_verb_sweep, bt_verb_calibrate, bt_verb_rig,
     bt_verb_noise, bt_verb_sensitivity, bt_verb_report, bt_verb_figures, bt_verb_paper;
 
-/// Draws Figs. 14 to 16 of a study into a folder.
-BT_CHECKED bt_status bt_sweep_figures(const bt_study* study, const char* folder, bt_diag* diag);
-
-/// Draws the reliability of STUDY/reliability.csv into STUDY/figures.
-BT_CHECKED bt_status bt_reliability_figures(const bt_study* study, bt_diag* diag);
-
 /// Writes the report page of a study that was read from the command's file.
 BT_CHECKED bt_status bt_command_report(const bt_command* command, const bt_study* study,
                                        const char* path);

@@ -48,7 +48,11 @@ bt_status bt_chain_reliability(bt_chain* chain, bool again, const bt_surrogate* 
     if (bt_output_kind(command->output) == BT_OUTPUT_TABLE)
         BT_TRY(export_table(chain));
     BT_TRY(copy_out(chain, command->json ? "reliability.json" : "reliability.txt"));
-    return fresh ? bt_reliability_figures(&chain->study, &chain->diag) : BT_OK;
+    if (!fresh)
+        return BT_OK;
+    char folder[BT_FILE_PATH_MAX];
+    BT_TRY(bt_study_directory_file(&chain->directory, "figures", folder));
+    return bt_reliability_draw(&chain->study, folder, &chain->diag);
 }
 
 // --- indices ----------------------------------------------------------------------------------

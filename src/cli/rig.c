@@ -2,6 +2,7 @@
 #include "cli/cli.h"
 #include "cli/output.h"
 #include "cli/rig_sweep.h"
+#include "report/rig_record.h"
 #include "report/rig_report.h"
 
 #include <stdio.h>
@@ -23,12 +24,12 @@ static bool find_kind(const char* word, bt_rig_kind* kind) {
 
 /// Histories where -o says; figures into the study directory unless only a file is wanted.
 static bt_status write_files(const bt_command* command, const bt_study* study,
-                             const bt_rig_record* record, const bt_rig_result* result,
-                             const bt_rig_curves* curves, bt_diag* diag) {
+                             const bt_rig_test* test, bt_diag* diag) {
+    const bt_rig_record* record = &test->record;
     char folder[BT_FILE_PATH_MAX], path[BT_FILE_PATH_MAX], name[64];
     const int kind = bt_output_kind(command->output);
     if (kind == BT_OUTPUT_HISTORIES)
-        return bt_rig_record_write(record, command->output, study, result, diag);
+        return bt_rig_record_write(record, command->output, study, &test->result, diag);
     if (kind == BT_OUTPUT_TABLE)
         return BT_OK; // written when it was shown
     BT_TRY(bt_file_path(folder, study->directory, "figures"));
@@ -36,69 +37,47 @@ static bt_status write_files(const bt_command* command, const bt_study* study,
     if (command->output) {
         snprintf(name, sizeof name, "%s.h5", bt_rig_keys[record->kind]);
         BT_TRY(bt_file_path(path, study->directory, name));
-        BT_TRY(bt_rig_record_write(record, path, study, result, diag));
+        BT_TRY(bt_rig_record_write(record, path, study, &test->result, diag));
     }
-    BT_TRY(bt_rig_draw(study, record, curves, folder, diag));
+    BT_TRY(bt_rig_draw(study, record, &test->curves, folder, diag));
     if (!command->json && !command->quiet)
         printf("figures: %s\n", folder);
     return BT_OK;
 }
 
-static void write_json(const bt_study* study, const bt_rig_record* record,
-                       const bt_rig_result* result, const bt_rig_curves* curves, double tolerance) {
+static void write_json(const bt_study* study, const bt_rig_test* test, double tolerance) {
     bt_json json = {.out = stdout};
     bt_json_begin_object(&json, NULL);
-    bt_json_string(&json, "rig", bt_rig_keys[record->kind]);
+    bt_json_string(&json, "rig", bt_rig_keys[test->record.kind]);
     bt_json_string(&json, "title", study->title);
-    bt_rig_write_json(&json, result, record, curves, tolerance);
+    bt_rig_write_json(&json, &test->result, &test->record, &test->curves, tolerance);
     bt_json_end_object(&json);
 }
 
 /// The table to -o FILE.csv, and to the user.
-static bt_status show(const bt_command* command, const bt_study* study, const bt_rig_record* record,
-                      const bt_rig_result* result, const bt_rig_curves* curves, bt_diag* diag) {
-    const double tolerance = bt_rig_point_tolerance(record->kind, &study->rigs);
-    bt_report_table* table = bt_rig_table(result, record, curves, tolerance);
+static bt_status show(const bt_command* command, const bt_study* study, const bt_rig_test* test,
+                      bt_diag* diag) {
+    const double tolerance = bt_rig_point_tolerance(test->record.kind, &study->rigs);
+    bt_report_table* table = bt_rig_table(&test->result, &test->record, &test->curves, tolerance);
     bt_status status = bt_output_table(command, table, diag);
     if (status == BT_OK && command->json)
-        write_json(study, record, result, curves, tolerance);
+        write_json(study, test, tolerance);
     else if (status == BT_OK) {
-        printf("%s: %s\n", bt_rig_keys[record->kind], study->title);
+        printf("%s: %s\n", bt_rig_keys[test->record.kind], study->title);
         status = bt_report_table_print(table, stdout);
     }
     bt_report_table_destroy(table);
     return status;
 }
 
-static bt_status run_test(const bt_command* command, const bt_study* study, bt_rig_kind kind,
-                          const bt_rig_curves* curves) {
+static bt_status run_test(const bt_command* command, const bt_study* study, bt_rig_kind kind) {
     bt_diag diag = bt_stderr_diag();
-    bt_rig_record record;
-    bt_rig_result result;
-    bt_rig_record_start(&record, kind);
-    bt_status status = bt_rig_run(kind, &study->model.aircraft, &study->rigs, &result,
-                                  bt_rig_record_observe, &record, &diag);
-    if (status == BT_OK) {
-        status = show(command, study, &record, &result, curves, &diag);
-        if (status == BT_OK)
-            status = write_files(command, study, &record, &result, curves, &diag);
-    } else if (status == BT_ERR_NUMERIC)
-        status = BT_ERR_FAILED_RUNS;
-    bt_rig_record_destroy(&record);
-    return status;
-}
-
-static bt_status test(const bt_command* command, const bt_study* study, bt_rig_kind kind) {
-    bt_diag diag = bt_stderr_diag();
-    bt_rig_curves curves;
-    if (!study->rig_inputs[kind].given) {
-        bt_diag_add(&diag, BT_ERROR, (bt_where){.file = command->words[0]},
-                    "rigs.%s: missing; the study does not describe this test", bt_rig_keys[kind]);
-        return BT_ERR_INPUT;
-    }
-    BT_TRY(bt_rig_curves_read(study, kind, &curves, &diag));
-    const bt_status status = run_test(command, study, kind, &curves);
-    bt_rig_curves_destroy(&curves);
+    bt_rig_test test;
+    BT_TRY(bt_stage_rig(study, kind, &test, &diag));
+    bt_status status = show(command, study, &test, &diag);
+    if (status == BT_OK)
+        status = write_files(command, study, &test, &diag);
+    bt_rig_test_destroy(&test);
     return status;
 }
 
@@ -119,7 +98,7 @@ static bt_status run_rig(const bt_command* typed) {
     BT_TRY(bt_command_rigs(&command, &study));
     bt_status status = named ? BT_OK : bt_rig_only(&command, &study, &kind);
     if (status == BT_OK)
-        status = test(&command, &study, kind);
+        status = run_test(&command, &study, kind);
     bt_study_destroy(&study);
     return status;
 }

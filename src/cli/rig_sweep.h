@@ -8,8 +8,8 @@
 /// the list "A, B, C", prints a table of its metrics and draws one figure.
 ///
 /// @param study  as the command gives it: only which rigs there are is taken from it
-BT_CHECKED bt_status bt_rig_sweep(const bt_command* command, const bt_study* study, const char* key,
-                                  const char* list);
+BT_CHECKED bt_status bt_rig_sweep_command(const bt_command* command, const bt_study* study,
+                                          const char* key, const char* list);
 
 /// The one rig that a study describes; a wrong use, said on stderr, when there is none or more.
 BT_CHECKED bt_status bt_rig_only(const bt_command* command, const bt_study* study,

@@ -2,7 +2,7 @@
 #ifndef BT_PIPELINE_SWEEP_H
 #define BT_PIPELINE_SWEEP_H
 
-#include "landing/landing.h"
+#include "study/study.h"
 
 enum { BT_SWEEP_VALUES_MAX = 64 };
 
@@ -44,5 +44,32 @@ BT_CHECKED bt_status bt_sweep_run(const bt_model_params* model, const char* key,
                                   const double* values, int count, int threads,
                                   const atomic_int* stop, bt_sweep* sweep, bt_diag* diag);
 void bt_sweep_destroy(bt_sweep* sweep);
+
+/// The first bounce of a landing; NAN when there was none, or the run ended in the air.
+bt_bounce bt_first_bounce(const bt_landing_result* result);
+
+/// A sweep as it is typed, and what the paper says of it.
+typedef struct bt_sweep_plan {
+    char name[160];         ///< of its figure: "fig14"
+    const char* key;        ///< "landing.sink_speed"
+    const char* values;     ///< "3.6 m/s, 4 m/s"
+    const char* title;      ///< NULL: none
+    const char* paper;      ///< number of the paper's figure
+    const char* said;       ///< what the paper prints; NULL: nothing
+    const char* said_label; ///< in the figure
+    double said_height_m, said_distance_m;
+} bt_sweep_plan;
+
+/// The paper's three: Figs. 14 to 16.
+enum { BT_PAPER_SWEEPS = 3 };
+extern const bt_sweep_plan bt_paper_sweeps[BT_PAPER_SWEEPS];
+
+/// A plan of one's own; the texts stay the caller's.
+bt_sweep_plan bt_sweep_plan_of(const char* key, const char* values);
+
+/// Runs a plan on a study's landing, the cable at least BT_CLEAR_DISTANCE_M away (unless the
+/// distance itself is the key), so that the hook bounces undisturbed. See bt_sweep_run.
+BT_CHECKED bt_status bt_stage_sweep(const bt_study* study, const bt_sweep_plan* plan,
+                                    const atomic_int* stop, bt_sweep* sweep, bt_diag* diag);
 
 #endif

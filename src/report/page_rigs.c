@@ -176,20 +176,14 @@ static void write_rig(bt_json* json, bt_rig_kind kind, bool reference, const bt_
 /// A rig that diverges is left out, with what it said in diag.
 static bt_status run_rig(bt_page* page, bt_rig_kind kind) {
     const bt_study* study = page->subject->study;
-    bt_rig_record record;
-    bt_rig_result result;
-    bt_rig_curves curves;
-    BT_TRY(bt_rig_curves_read(study, kind, &curves, page->diag));
-    bt_rig_record_start(&record, kind);
-    bt_status status = bt_rig_run(kind, &study->model.aircraft, &study->rigs, &result,
-                                  bt_rig_record_observe, &record, page->diag);
-    if (status == BT_OK && record.out_of_memory)
-        status = BT_ERR_MEMORY;
-    if (status == BT_OK)
-        write_rig(page->json, kind, bt_study_is_reference(study), &record, &result, &curves);
-    bt_rig_record_destroy(&record);
-    bt_rig_curves_destroy(&curves);
-    return status == BT_ERR_NUMERIC ? BT_OK : status;
+    bt_rig_test test;
+    const bt_status status = bt_stage_rig(study, kind, &test, page->diag);
+    if (status != BT_OK)
+        return status == BT_ERR_FAILED_RUNS ? BT_OK : status;
+    write_rig(page->json, kind, bt_study_is_reference(study), &test.record, &test.result,
+              &test.curves);
+    bt_rig_test_destroy(&test);
+    return BT_OK;
 }
 
 bt_status bt_page_rigs_write(bt_page* page) {

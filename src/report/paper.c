@@ -99,25 +99,15 @@ static double smallest(const double* value, int count) {
 
 enum { SWEPT = 5 };
 
-/// Height and length of the first bounce over one key, the cable out of the way.
-static bt_status bounces(const paper* p, const char* key, const double* values, int count,
-                         double height_m[SWEPT], double distance_m[SWEPT]) {
-    bt_model_params* model = malloc(sizeof *model);
+/// Height and length of the first bounces of one of the paper's sweeps.
+static bt_status bounces(const paper* p, int figure, double height_m[SWEPT],
+                         double distance_m[SWEPT]) {
     bt_sweep sweep;
-    if (!model)
-        return BT_ERR_MEMORY;
-    *model = p->study->model;
-    model->landing.distance_m = fmax(model->landing.distance_m, BT_CLEAR_DISTANCE_M);
-    const bt_status status = bt_sweep_run(
-        model, key, values, count, (int)p->study->campaign.threads, p->stop, &sweep, p->diag);
-    free(model);
-    if (status != BT_OK)
-        return status;
-    for (int i = 0; i < count; ++i) {
-        const bt_landing_result* r = &sweep.rows[i].result;
-        const bool whole = r->bounce_count > 0 && r->bounces[0].complete;
-        height_m[i] = whole ? r->bounces[0].height_m : NAN;
-        distance_m[i] = whole ? r->bounces[0].distance_m : NAN;
+    BT_TRY(bt_stage_sweep(p->study, &bt_paper_sweeps[figure - 14], p->stop, &sweep, p->diag));
+    for (int i = 0; i < sweep.count && i < SWEPT; ++i) {
+        const bt_bounce bounce = bt_first_bounce(&sweep.rows[i].result);
+        height_m[i] = bounce.height_m;
+        distance_m[i] = bounce.distance_m;
     }
     bt_sweep_destroy(&sweep);
     return BT_OK;
@@ -127,10 +117,9 @@ static const char calibrated[] = "the reference hook's damper and head were chos
                                  "number: agreement is calibration, not validation";
 
 static bt_status compare_sink_speed(const paper* p) {
-    static const double values[] = {3.6, 4, 5, 6.3};
     double height[SWEPT], distance[SWEPT];
     char text[TEXT_SIZE];
-    BT_TRY(bounces(p, "landing.sink_speed", values, 4, height, distance));
+    BT_TRY(bounces(p, 14, height, distance));
     number(p, "Fig. 14", "at 6.3 m/s the first bounce is", 53, 1e3 * height[3], "mm", calibrated);
     list(text, height, 4, 1e3, "mm");
     row(p, "Fig. 14", "it grows with the sinking velocity", text, "", moves(height, 4, 1),
@@ -142,11 +131,9 @@ static bt_status compare_sink_speed(const paper* p) {
 }
 
 static bt_status compare_pitch(const paper* p) {
-    static const double degree = 0.017453292519943295;
-    const double values[] = {0, 2 * degree, 4 * degree, 6 * degree, 8 * degree};
     double height[SWEPT], distance[SWEPT];
     char text[TEXT_SIZE];
-    BT_TRY(bounces(p, "landing.pitch", values, 5, height, distance));
+    BT_TRY(bounces(p, 15, height, distance));
     number(p, "Fig. 15", "at 8 deg the first bounce is", 81, 1e3 * height[4], "mm", calibrated);
     number(p, "Fig. 15", "and its length", 4.57, distance[4], "m", calibrated);
     list(text, height, 5, 1e3, "mm");
@@ -156,10 +143,9 @@ static bt_status compare_pitch(const paper* p) {
 }
 
 static bt_status compare_horizontal_speed(const paper* p) {
-    static const double values[] = {40, 45, 50, 55};
     double height[SWEPT], distance[SWEPT];
     char text[TEXT_SIZE], spread[TEXT_SIZE];
-    BT_TRY(bounces(p, "landing.horizontal_speed", values, 4, height, distance));
+    BT_TRY(bounces(p, 16, height, distance));
     const double part = largest(height, 4) / smallest(height, 4) - 1;
     list(text, height, 4, 1e3, "mm");
     snprintf(spread, sizeof spread, "%.1f %% apart", 100 * part);

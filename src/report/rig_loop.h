@@ -2,7 +2,7 @@
 #ifndef BT_REPORT_RIG_LOOP_H
 #define BT_REPORT_RIG_LOOP_H
 
-#include "report/rig_record.h"
+#include "rigs/record.h"
 #include "study/measured.h"
 
 /// One loop. The work on the way in is W = integral of F ds until the largest stroke.

@@ -6,62 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-// --- measured curves --------------------------------------------------------------------------
-
-/// Where a curve is named, and who is told about it.
-typedef struct naming {
-    bt_where where;
-    bt_diag* diag;
-} naming;
-
-/// What is wrong with a whole file is said where the study names it, the rest at its place there.
-static void place(void* user, bt_severity severity, bt_where where, const char* text) {
-    const naming* n = user;
-    if (where.line > 0)
-        bt_diag_add(n->diag, severity, where, "%s", text);
-    else
-        bt_diag_add(n->diag, severity, n->where, "curve: \"%s\": %s", where.file, text);
-}
-
-static bt_status read_curve(const bt_rig_input* input, int i, const bt_rig_record* names,
-                            bt_rig_curves* curves, bt_diag* diag) {
-    bt_measured* measured = NULL;
-    naming named = {input->curves[i].where, diag};
-    bt_diag placing = {.sink = place, .user = &named};
-    bt_status status =
-        bt_measured_read(input->curves[i].path, &input->curves[i].columns, &measured, &placing);
-    if (status != BT_OK)
-        return status;
-    status = bt_measured_bind(measured, names->names, names->column_count, diag);
-    if (status != BT_OK)
-        bt_measured_destroy(measured);
-    else
-        curves->measured[curves->count++] = measured;
-    return status;
-}
-
-bt_status bt_rig_curves_read(const bt_study* study, bt_rig_kind kind, bt_rig_curves* curves,
-                             bt_diag* diag) {
-    const bt_rig_input* input = &study->rig_inputs[kind];
-    bt_rig_record names;
-    bt_status worst = BT_OK;
-    *curves = (bt_rig_curves){0};
-    bt_rig_record_start(&names, kind);
-    for (int i = 0; i < input->curve_count; ++i) {
-        const bt_status status = read_curve(input, i, &names, curves, diag);
-        worst = worst == BT_OK ? status : worst;
-    }
-    if (worst != BT_OK)
-        bt_rig_curves_destroy(curves);
-    return worst;
-}
-
-void bt_rig_curves_destroy(bt_rig_curves* curves) {
-    for (int i = 0; i < curves->count; ++i)
-        bt_measured_destroy(curves->measured[i]);
-    curves->count = 0;
-}
-
 void bt_rig_curve_error(const bt_rig_record* record, const bt_measured* measured, double* rms,
                         double* share) {
     double sum = 0, most = 0;

@@ -2,23 +2,9 @@
 #ifndef BT_REPORT_RIG_REPORT_H
 #define BT_REPORT_RIG_REPORT_H
 
+#include "pipeline/rig_stage.h"
 #include "report/json.h"
-#include "report/rig_record.h"
 #include "report/table.h"
-#include "study/measured.h"
-
-/// The measured curves of one rig, bound to the columns of its record.
-typedef struct bt_rig_curves {
-    int count;
-    bt_measured* measured[BT_CURVES_MAX]; ///< owned
-} bt_rig_curves;
-
-/// Reads the curves that the study names for a rig and checks their columns and units. Every
-/// mistake is said in diag with its place in the CSV file; a file that cannot be read at the place
-/// that names it. BT_ERR_INPUT, BT_ERR_IO, BT_ERR_MEMORY.
-BT_CHECKED bt_status bt_rig_curves_read(const bt_study* study, bt_rig_kind kind,
-                                        bt_rig_curves* curves, bt_diag* diag);
-void bt_rig_curves_destroy(bt_rig_curves* curves);
 
 /// How far the record lies from a curve over time, or over another column that grows all the time:
 /// root mean square of the difference where both exist, SI, and its share of the largest measured

@@ -363,8 +363,7 @@ static void report_column(const char* name, bt_where where, const char* const* n
         bt_text_append(list, sizeof list, "%s%.*s", i ? ", " : "",
                        has_unit ? (int)(last - names[i]) : (int)strlen(names[i]), names[i]);
     }
-    bt_diag_add(diag, BT_ERROR, where, "%s: this run records no such column; it has %s", name,
-                list);
+    bt_diag_add(diag, BT_ERROR, where, "%s: no such column; the recorded ones are %s", name, list);
 }
 
 /// Finds a column and the factor from its written unit to SI.

@@ -3,7 +3,7 @@
 /// repeat, and a trigger before the first contact.
 #include "cli_fixture.h"
 
-#include "report/rig_record.h"
+#include "rigs/record.h"
 
 #define GEAR "studies/rigs/open_nose_gear.yaml"
 

@@ -2,6 +2,7 @@
 #define _GNU_SOURCE
 #include "near.h"
 
+#include "pipeline/figures.h"
 #include "pipeline/pipeline.h"
 #include "report/reliability_report.h"
 #include "toy_study.h"
@@ -95,10 +96,85 @@ static void a_study_of_the_users_in_the_directory_stays(void** state) {
     toy_directory_remove(folder);
 }
 
+/// What was given to be drawn.
+static int rigs_drawn, sweeps_drawn, tables_drawn;
+
+static bt_status count_rig(const bt_study* study, const bt_rig_test* test, const char* folder,
+                           bt_diag* diag) {
+    (void)study, (void)folder, (void)diag;
+    assert_true(test->record.count > 100 && test->result.metric_count > 0);
+    ++rigs_drawn;
+    return BT_OK;
+}
+
+static bt_status count_sweep(const bt_study* study, const bt_sweep_plan* plan,
+                             const bt_sweep* sweep, const char* folder, bt_diag* diag) {
+    (void)study, (void)folder, (void)diag;
+    assert_string_equal(plan->key, bt_paper_sweeps[sweeps_drawn].key);
+    for (int i = 0; i < sweep->count; ++i)
+        assert_true(isfinite(bt_first_bounce(&sweep->rows[i].result).height_m));
+    ++sweeps_drawn;
+    return BT_OK;
+}
+
+static bt_status count_table(const bt_study* study, const char* folder, bt_diag* diag) {
+    (void)study, (void)diag;
+    assert_non_null(strstr(folder, "/figures"));
+    ++tables_drawn;
+    return BT_OK;
+}
+
+static void one_call_gives_every_figure(void** state) {
+    (void)state;
+    char* folder = toy_directory();
+    bt_study* study = make(folder);
+    bt_diag diag = {0};
+    const bt_figure_writers count = {count_rig, count_sweep, count_table};
+    assert_int_equal(bt_stage_figures(study, &count, NULL, &diag), BT_OK);
+    assert_int_equal(rigs_drawn, 3);
+    assert_int_equal(sweeps_drawn, BT_PAPER_SWEEPS);
+    assert_int_equal(tables_drawn, 1);
+
+    // a rig that fails has no figure, and keeps nothing from being drawn; a stop does
+    const atomic_int stop = 1;
+    study->rigs.nose_drop.sink_speed_mps = 60;
+    assert_int_equal(bt_stage_figures(study, &count, &stop, &diag), BT_ERR_INTERRUPTED);
+    assert_int_equal(rigs_drawn, 5);
+    assert_int_equal(sweeps_drawn, BT_PAPER_SWEEPS);
+    bt_study_destroy(study);
+    free(study);
+    toy_directory_remove(folder);
+}
+
+static void a_rig_is_run_once_per_value(void** state) {
+    (void)state;
+    bt_diag diag = {0};
+    bt_rig_sweep sweep;
+    const char* const sets[] = {"rigs.nose_drop.duration=0.05 s"};
+    assert_int_equal(bt_stage_rig_sweep("studies/reference/study.yaml", sets, 1, BT_RIG_NOSE_DROP,
+                                        "rigs.nose_drop.sink_speed", "2 m/s, 3 m/s", &sweep, &diag),
+                     BT_OK);
+    assert_int_equal(sweep.count, 2);
+    assert_string_equal(sweep.rows[1].value, "3 m/s");
+    assert_true(sweep.rows[1].test.result.end_time_s < 0.06);
+    BT_ASSERT_NEAR(sweep.rows[1].test.record.columns[0][0], 0, 0, 0);
+    bt_rig_sweep_destroy(&sweep);
+    assert_int_equal(bt_stage_rig_sweep("studies/reference/study.yaml", NULL, 0, BT_RIG_NOSE_DROP,
+                                        "rigs.nose_drop.sink_sped", "2 m/s", &sweep, &diag),
+                     BT_ERR_INPUT);
+    bt_study study;
+    bt_rig_test test;
+    assert_int_equal(bt_study_read_rigs("studies/rigs/currey.yaml", NULL, 0, &study, &diag), BT_OK);
+    assert_int_equal(bt_stage_rig(&study, BT_RIG_HOOK_REBOUND, &test, &diag), BT_ERR_INPUT);
+    bt_study_destroy(&study);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_study_is_done_once),
         cmocka_unit_test(a_study_of_the_users_in_the_directory_stays),
+        cmocka_unit_test(one_call_gives_every_figure),
+        cmocka_unit_test(a_rig_is_run_once_per_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
