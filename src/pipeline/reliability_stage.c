@@ -30,6 +30,8 @@ static char* table_key(const bt_study* study, const bt_surrogate* surrogate) {
         if (study->inputs[i].random)
             fprintf(out, "%s %d %a %a %a %a %a %a %a\n", study->inputs[i].path, d->kind, d->mean,
                     d->sd, d->lower, d->upper, d->mode, d->scale, d->shape);
+        if (d->sample)
+            fprintf(out, "values %016" PRIx64 "\n", bt_sample_hash(d->sample));
     }
     bt_event events[BT_EVENT_MAX];
     const int event_count = bt_events_of(study, events);

@@ -13,7 +13,8 @@ bool bt_judged_possible(const bt_study* study) {
     for (int i = 0; i < study->input_count; ++i) {
         const bt_input* input = &study->inputs[i];
         random += input->random;
-        if (!by_distribution && input->random != input->bounded)
+        if (!by_distribution &&
+            (input->random != input->bounded || bt_distribution_has_atoms(&input->distribution)))
             return false;
     }
     return random > 0;

@@ -162,9 +162,10 @@ static bool parse_children(parser* p, bt_node* parent, int depth) {
                 return false;
         }
         bt_node_append(parent, key, child);
-        if (parent->count > BT_DOCUMENT_KEYS_MAX) {
-            bt_diag_add(p->diag, BT_ERROR, child->where, "more than %d entries in one place",
-                        (int)BT_DOCUMENT_KEYS_MAX);
+        const int most =
+            parent->kind == BT_NODE_MAPPING ? BT_DOCUMENT_KEYS_MAX : BT_DOCUMENT_ITEMS_MAX;
+        if (parent->count > most) {
+            bt_diag_add(p->diag, BT_ERROR, child->where, "more than %d entries in one place", most);
             p->status = BT_ERR_INPUT;
             return false;
         }

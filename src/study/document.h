@@ -11,8 +11,9 @@
 enum {
     BT_DOCUMENT_SIZE_MAX = 1 << 20, ///< bytes
     BT_DOCUMENT_DEPTH_MAX = 16,
-    BT_DOCUMENT_NODES_MAX = 20000,
-    BT_DOCUMENT_KEYS_MAX = 1000, ///< keys of one mapping, and items of one sequence
+    BT_DOCUMENT_NODES_MAX = 40000,
+    BT_DOCUMENT_KEYS_MAX = 1000,   ///< keys of one mapping
+    BT_DOCUMENT_ITEMS_MAX = 10000, ///< items of one sequence
 };
 
 typedef enum bt_node_kind { BT_NODE_SCALAR, BT_NODE_SEQUENCE, BT_NODE_MAPPING } bt_node_kind;

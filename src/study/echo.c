@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
-#include "study/inputs.h"
+#include "study/uncertainty.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -120,9 +120,37 @@ static void write_quoted(FILE* out, const char* text) {
 
 static void write_parameter(FILE* out, const bt_input* input, const char* name, double value) {
     char text[TEXT_SIZE];
-    const bool plain = strcmp(name, "shape") == 0 || input->field->kind == BT_FIELD_PLAIN;
+    const bool plain = bt_distribution_is_plain(name) || input->field->kind == BT_FIELD_PLAIN;
     bt_unit_print(value, plain ? "1" : input->field->unit, text, sizeof text);
     fprintf(out, ", %s: %s", name, text);
+}
+
+/// Values in full, so that the text needs no other file; equal ones of a file as often as they
+/// were.
+static void write_sample(FILE* out, const bt_input* input) {
+    const bt_sample* sample = input->distribution.sample;
+    const bool discrete = input->distribution.kind == BT_DISCRETE;
+    const char* unit = *input->field->unit ? input->field->unit : "1";
+    const char* between = "";
+    char text[TEXT_SIZE];
+    double value, weight;
+    fputs(", values: [", out);
+    for (int i = 0; i < bt_sample_count(sample); ++i) {
+        bt_sample_get(sample, i, &value, &weight);
+        bt_unit_print(value, unit, text, sizeof text);
+        for (int k = 0; k < (discrete ? 1 : (int)weight); ++k, between = ", ")
+            fprintf(out, "%s%s", between, text);
+    }
+    fputs(discrete ? "], probabilities: [" : "]", out);
+    for (int i = 0; i < bt_sample_count(sample) && discrete; ++i) {
+        bt_sample_get(sample, i, &value, &weight);
+        bt_text_print_number(weight, text, sizeof text);
+        fprintf(out, "%s%s", i > 0 ? ", " : "", text);
+    }
+    if (discrete)
+        fputc(']', out);
+    else if (bt_sample_is_smooth(sample))
+        write_parameter(out, input, "bandwidth", bt_sample_bandwidth_of(sample));
 }
 
 static void write_uncertainty(FILE* out, const bt_study* study) {
@@ -137,7 +165,9 @@ static void write_uncertainty(FILE* out, const bt_study* study) {
         bt_distribution d = input->distribution;
         fprintf(out, "  %s: {distribution: %s", input->path, bt_distribution_names[d.kind]);
         const char* const* names = bt_distribution_parameters(d.kind);
-        for (; *names; ++names)
+        if (d.sample)
+            write_sample(out, input);
+        for (; *names && !d.sample; ++names)
             if (!isinf(*bt_distribution_parameter(&d, *names))) // a bound that is not there
                 write_parameter(out, input, *names, *bt_distribution_parameter(&d, *names));
         fputs("}\n", out);

@@ -3,6 +3,7 @@
 #include "base/hash.h"
 #include "base/text.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,6 +73,8 @@ static void write_distribution(FILE* out, const bt_input* input) {
     const double value[] = {d->mean, d->sd, d->lower, d->upper, d->mode, d->scale, d->shape};
     for (size_t i = 0; i < sizeof value / sizeof value[0]; ++i)
         write_number(out, value[i]);
+    if (d->sample)
+        fprintf(out, " values %016" PRIx64, bt_sample_hash(d->sample));
     fputc('\n', out);
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "study/uncertainty.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -48,9 +49,8 @@ static void report_path(bt_reader* reader, const bt_node* key, const char* chapt
                     *help ? help : "; it must be a path as in landing.sink_speed");
 }
 
-/// The input with this path, added when it is new; NULL after reporting an error.
-static bt_input* find_or_add(bt_reader* reader, bt_study* study, const bt_node* key,
-                             const char* chapter) {
+bt_input* bt_inputs_find_or_add(bt_reader* reader, bt_study* study, const bt_node* key,
+                                const char* chapter) {
     for (int i = 0; i < study->input_count; ++i)
         if (strcmp(study->inputs[i].path, key->text) == 0)
             return &study->inputs[i];
@@ -71,104 +71,11 @@ static bt_input* find_or_add(bt_reader* reader, bt_study* study, const bt_node* 
     return input;
 }
 
-static bt_input* find_input(bt_study* study, const char* path) {
+bt_input* bt_inputs_find(bt_study* study, const char* path) {
     for (int i = 0; i < study->input_count; ++i)
         if (strcmp(study->inputs[i].path, path) == 0)
             return &study->inputs[i];
     return NULL;
-}
-
-// --- distributions --------------------------------------------------------------------------
-
-double* bt_distribution_parameter(bt_distribution* d, const char* name) {
-    const struct {
-        const char* name;
-        double* value;
-    } rows[] = {{"mean", &d->mean},   {"sd", &d->sd},     {"lower", &d->lower},
-                {"upper", &d->upper}, {"mode", &d->mode}, {"scale", &d->scale},
-                {"shape", &d->shape}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i)
-        if (strcmp(rows[i].name, name) == 0)
-            return rows[i].value;
-    return NULL;
-}
-
-/// Whether a parameter that is not given has a value all the same: the mean is then the key's own
-/// value, a location is zero, a bound of a truncated normal is infinite.
-static bool may_be_left_out(const bt_distribution* d, const char* name) {
-    if (strcmp(name, "mean") == 0)
-        return true;
-    if (d->kind == BT_TRUNCATED_NORMAL)
-        return strcmp(name, "lower") == 0 || strcmp(name, "upper") == 0;
-    return strcmp(name, "lower") == 0 && (d->kind == BT_WEIBULL || d->kind == BT_EXPONENTIAL);
-}
-
-static void read_parameter(bt_reader* reader, const bt_input* input, const bt_node* node,
-                           const char* name, const char* path, bt_distribution* d) {
-    static const bt_field plain = {.kind = BT_FIELD_PLAIN, .unit = ""};
-    char place[PATH_SIZE];
-    bt_reader_join(place, sizeof place, path, name);
-    const bt_node* value = bt_node_child(node, name);
-    const bool shape = strcmp(name, "shape") == 0;
-    // values of the key itself, not widths, nor a location that no sample needs to come near
-    const bool width = shape || strcmp(name, "sd") == 0 || strcmp(name, "scale") == 0;
-    const bool location = d->kind == BT_WEIBULL || d->kind == BT_EXPONENTIAL;
-    const bool ranged = !width && !(location && strcmp(name, "lower") == 0);
-    if (value)
-        bt_reader_number(reader, shape ? &plain : input->field, value, place, ranged,
-                         bt_distribution_parameter(d, name));
-    else if (!may_be_left_out(d, name))
-        bt_reader_error(reader, node->key->where, "%s: missing; %s needs it", place,
-                        bt_distribution_names[d->kind]);
-}
-
-static void read_distribution(bt_reader* reader, const bt_study* study, bt_input* input,
-                              const bt_node* node, const char* path) {
-    static const char* const kind_key[] = {"distribution", NULL};
-    const int before = reader->errors;
-    if (!bt_reader_is_mapping(reader, node, path))
-        return;
-    char place[PATH_SIZE];
-    bt_reader_join(place, sizeof place, path, "distribution");
-    const bt_node* kind_node = bt_node_child(node, "distribution");
-    int kind;
-    if (!kind_node) {
-        bt_reader_error(reader, node->key->where, "%s: missing; wanted: normal, uniform, ...",
-                        place);
-        return;
-    }
-    if (!bt_reader_choice(reader, bt_distribution_names, kind_node, place, &kind))
-        return;
-    bt_distribution* d = &input->distribution;
-    *d = (bt_distribution){.kind = (bt_distribution_kind)kind};
-    d->mean = bt_field_get(input->field, &study->model, input->offset);
-    if (d->kind == BT_TRUNCATED_NORMAL) {
-        d->lower = -INFINITY;
-        d->upper = INFINITY;
-    }
-    const char* const* names = bt_distribution_parameters(d->kind);
-    bt_reader_known_keys(reader, node, path, kind_key, names);
-    for (; *names; ++names)
-        read_parameter(reader, input, node, *names, path, d);
-    const bt_node* sd = bt_node_child(node, "sd");
-    if (sd && sd->kind == BT_NODE_SCALAR && !*input->typed)
-        snprintf(input->typed, sizeof input->typed, "%s", sd->text);
-    const char* fault = reader->errors == before ? bt_distribution_check(d) : NULL;
-    if (fault)
-        bt_reader_error(reader, node->key->where, "%s: %s", path, fault);
-    input->random = reader->errors == before;
-}
-
-static void read_uncertainty(bt_reader* reader, bt_study* study, const bt_node* node) {
-    if (!bt_reader_is_mapping(reader, node, "uncertainty"))
-        return;
-    for (const bt_node* child = node->first; child; child = child->next) {
-        char path[PATH_SIZE];
-        bt_reader_join(path, sizeof path, "uncertainty", child->key->text);
-        bt_input* input = find_or_add(reader, study, child->key, "uncertainty");
-        if (input)
-            read_distribution(reader, study, input, child, path);
-    }
 }
 
 // --- bounds, levels, conditions -------------------------------------------------------------
@@ -211,7 +118,7 @@ static void read_bounds(bt_reader* reader, bt_study* study, const bt_node* node)
     for (const bt_node* child = node->first; child; child = child->next) {
         char path[PATH_SIZE];
         bt_reader_join(path, sizeof path, "campaign.bounds", child->key->text);
-        bt_input* input = find_or_add(reader, study, child->key, "campaign.bounds");
+        bt_input* input = bt_inputs_find_or_add(reader, study, child->key, "campaign.bounds");
         if (input)
             read_range(reader, input, child, path);
     }
@@ -225,7 +132,7 @@ static void read_levels(bt_reader* reader, bt_study* study, const bt_node* node,
     for (const bt_node* child = node->first; child; child = child->next) {
         char path[PATH_SIZE];
         bt_reader_join(path, sizeof path, "campaign.levels", child->key->text);
-        bt_input* input = find_input(study, child->key->text);
+        bt_input* input = bt_inputs_find(study, child->key->text);
         double levels;
         if (!bt_node_child(bounds, child->key->text))
             bt_reader_error(reader, child->key->where, "%s: has no range in campaign.bounds", path);
@@ -258,6 +165,12 @@ static void add_condition(bt_reader* reader, bt_study* study, int index, const b
                         (int)BT_CONDITION_MAX);
         return;
     }
+    const bt_distribution moved = bt_distribution_moved(&input->distribution, mean);
+    const char* fault = bt_distribution_check(&moved);
+    if (fault) {
+        bt_reader_error(reader, node->where, "%s: %s with the mean at %s", path, fault, node->text);
+        return;
+    }
     study->conditions[study->condition_count++] = (bt_condition){index, mean};
 }
 
@@ -268,7 +181,7 @@ static void read_conditions(bt_reader* reader, bt_study* study, const bt_node* n
     for (const bt_node* child = node->first; child; child = child->next) {
         char path[PATH_SIZE];
         bt_reader_join(path, sizeof path, "reliability.conditions", child->key->text);
-        const bt_input* input = find_input(study, child->key->text);
+        const bt_input* input = bt_inputs_find(study, child->key->text);
         if (!bt_node_child(uncertainty, child->key->text)) {
             bt_reader_error(reader, child->key->where,
                             "%s: has no distribution in uncertainty whose mean could move", path);
@@ -317,11 +230,12 @@ static bool any_bounds(const bt_study* study) {
     return false;
 }
 
-void bt_inputs_read(bt_reader* reader, bt_study* study, const bt_node* uncertainty,
-                    const bt_node* bounds, const bt_node* levels, const bt_node* conditions) {
+void bt_inputs_read(bt_reader* reader, const bt_study_files* files, bt_study* study,
+                    const bt_node* uncertainty, const bt_node* bounds, const bt_node* levels,
+                    const bt_node* conditions) {
     const int before = reader->errors;
     if (uncertainty)
-        read_uncertainty(reader, study, uncertainty);
+        bt_uncertainty_read(reader, files, study, uncertainty);
     if (bounds)
         read_bounds(reader, study, bounds);
     // the tables' order, so that the order of a file's lines never changes a result

@@ -1,12 +1,4 @@
-/// A measured curve from a CSV file as a spreadsheet or a logger writes it: columns with their
-/// units in the header, in brackets or parentheses,
-///
-///     time [s], stroke [mm]               Time (s);Stroke (mm);Load cell (kN)
-///     0, 0                                0,0000;-0,12;0,004
-///     0.01, 58.2                          0,0001;-0,12;0,004
-///
-/// The delimiter is a semicolon, a tabulator or a comma, as the header has it; with the first two,
-/// numbers may have a decimal comma. Lines that begin with # are comments.
+/// A measured curve: two columns of a CSV file (study/csv.h).
 #ifndef BT_STUDY_MEASURED_H
 #define BT_STUDY_MEASURED_H
 
@@ -14,7 +6,7 @@
 
 #include <stdbool.h>
 
-enum { BT_MEASURED_NAME_MAX = 64, BT_MEASURED_ROWS_MAX = 1 << 24, BT_MEASURED_COLUMNS_MAX = 64 };
+enum { BT_MEASURED_NAME_MAX = 64, BT_MEASURED_ROWS_MAX = 1 << 24 };
 
 /// Which two columns of a file are meant, and as which of a history. All NULL: the file has two,
 /// and their headings are the history's names.

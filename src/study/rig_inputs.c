@@ -4,32 +4,16 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PATH_SIZE = 4096 };
-
 /// The part of the aircraft that each rig tests.
 static const char* const parts[BT_RIG_COUNT] = {"nose_gear", "main_gear", "hook", "nose_gear",
                                                 "main_gear"};
 
 // --- measured curves --------------------------------------------------------------------------
 
-/// The name of a file beside the one that names it; NULL when it is too long or memory is out.
-static const char* path_of(bt_document* names, const char* study_path, const bt_node* node) {
-    char path[PATH_SIZE];
-    const char* from = node->where.line > 0 ? node->where.file : study_path;
-    const char* slash = strrchr(from, '/');
-    const int folder = slash && *node->text != '/' ? (int)(slash - from) + 1 : 0;
-    const int length = snprintf(path, sizeof path, "%.*s%s", folder, from, node->text);
-    if (length < 0 || length >= PATH_SIZE)
-        return NULL;
-    const bt_node* kept = bt_document_node(names, BT_NODE_SCALAR, BT_NOWHERE, path, (size_t)length);
-    return kept ? kept->text : NULL;
-}
-
 /// One reading of measured curves: where they go, and what is said of them.
 typedef struct curve_reading {
     bt_reader* reader;
-    bt_document* names;
-    const char* study_path;
+    const bt_study_files* files;
     const char* key; ///< "rigs.nose_drop.reference.curve"
     bt_rig_input* input;
 } curve_reading;
@@ -45,20 +29,14 @@ static const char* keep(bt_document* names, const bt_node* node) {
 static void add_curve(const curve_reading* r, const bt_node* file,
                       const bt_measured_columns* columns) {
     bt_rig_input* input = r->input;
-    if (!r->study_path) {
-        bt_reader_error(r->reader, file->where, "%s: a file cannot be named here", r->key);
-        return;
-    }
     if (input->curve_count == BT_CURVES_MAX) {
         bt_reader_error(r->reader, file->where, "%s: more than %d curves", r->key,
                         (int)BT_CURVES_MAX);
         return;
     }
-    const char* path = path_of(r->names, r->study_path, file);
-    if (!path) {
-        bt_reader_error(r->reader, file->where, "%s: the name is too long", r->key);
+    const char* path = bt_study_file(r->reader, r->files, file, r->key);
+    if (!path)
         return;
-    }
     input->curves[input->curve_count].path = path;
     input->curves[input->curve_count].columns = *columns;
     input->curves[input->curve_count++].where = file->where;
@@ -140,12 +118,12 @@ bool bt_curve_take(bt_reader* reader, bt_document* names, const bt_node* node, c
 static void take_curves(const curve_reading* r, const bt_node* node) {
     const bt_node *file, *y = bt_node_child(node, "y");
     bt_measured_columns columns;
-    if (!take_mapping(r->reader, r->names, node, r->key, &file, &columns))
+    if (!take_mapping(r->reader, r->files->names, node, r->key, &file, &columns))
         return;
     if (!y)
         add_curve(r, file, &columns);
     for (const bt_node* one = y ? y->first : NULL; one; one = one->next) {
-        take_y(r->names, one, &columns);
+        take_y(r->files->names, one, &columns);
         add_curve(r, file, &columns);
     }
 }
@@ -175,21 +153,21 @@ static void fill(bt_document* document, bt_node* mapping, const char* key, const
         bt_node_append(mapping, name, node);
 }
 
-void bt_rig_inputs_take(bt_reader* reader, bt_document* names, const char* study_path,
-                        bt_node* root, bt_study* study) {
+void bt_rig_inputs_take(bt_reader* reader, const bt_study_files* files, bt_node* root,
+                        bt_study* study) {
     const bt_node* rigs = bt_node_child(root, "rigs");
     for (int kind = 0; kind < BT_RIG_COUNT; ++kind) {
         bt_rig_input* input = &study->rig_inputs[kind];
         bt_node* rig = bt_node_child(rigs, bt_rig_keys[kind]);
         input->given = rig != NULL;
         if (bt_node_child(rig, "drop_height"))
-            fill(names, rig, "sink_speed", "0 m/s");
+            fill(files->names, rig, "sink_speed", "0 m/s");
         const bt_node* curve = bt_node_take(bt_node_child(rig, "reference"), "curve");
         if (!curve)
             continue;
         char key[64];
         snprintf(key, sizeof key, "rigs.%s.reference.curve", bt_rig_keys[kind]);
-        const curve_reading r = {reader, names, study_path, key, input};
+        const curve_reading r = {reader, files, key, input};
         if (curve->kind != BT_NODE_SEQUENCE)
             take_curve(&r, curve);
         else

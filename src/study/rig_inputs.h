@@ -3,14 +3,14 @@
 #ifndef BT_STUDY_RIG_INPUTS_H
 #define BT_STUDY_RIG_INPUTS_H
 
+#include "study/files.h"
 #include "study/reader.h"
 #include "study/study.h"
 
 /// Takes `reference.curve` of every rig out of the tree into study->rig_inputs. The files are not
-/// opened; their names are relative to the file that names them and belong to `names`.
-/// @param study_path  NULL: no files may be named
-void bt_rig_inputs_take(bt_reader* reader, bt_document* names, const char* study_path,
-                        bt_node* root, bt_study* study);
+/// opened.
+void bt_rig_inputs_take(bt_reader* reader, const bt_study_files* files, bt_node* root,
+                        bt_study* study);
 
 /// Reads one curve: the name of a file, or a mapping with `file`, `x`, one `y` and `offset`. The
 /// texts of *columns belong to `names`. False: neither; what is wrong with a mapping was reported.

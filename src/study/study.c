@@ -2,6 +2,7 @@
 
 #include "study/alternatives.h"
 #include "study/echo.h"
+#include "study/files.h"
 #include "study/identity.h"
 #include "study/inputs.h"
 #include "study/reader.h"
@@ -11,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { PATH_SIZE = 4096 };
 
@@ -39,33 +39,6 @@ static const char* keep_name(reading* r, const char* name) {
 }
 
 // --- files ----------------------------------------------------------------------------------
-
-static bool identify(const char* path, bt_file_identity* identity) {
-    struct stat info;
-    if (stat(path, &info) != 0)
-        return false;
-    *identity = (bt_file_identity){(uint64_t)info.st_dev, (uint64_t)info.st_ino};
-    return true;
-}
-
-static bool is_file(const char* path, const bt_file_identity* wanted) {
-    bt_file_identity found;
-    return identify(path, &found) && found.device == wanted->device && found.inode == wanted->inode;
-}
-
-bool bt_study_reads(const bt_study* study, const char* path) {
-    bt_file_identity identity;
-    if (!identify(path, &identity))
-        return false;
-    for (int i = 0; i < study->file_count; ++i)
-        if (is_file(path, &study->files[i]))
-            return true;
-    for (int kind = 0; kind < BT_RIG_COUNT; ++kind)
-        for (int i = 0; i < study->rig_inputs[kind].curve_count; ++i)
-            if (is_file(study->rig_inputs[kind].curves[i].path, &identity))
-                return true;
-    return false;
-}
 
 /// Reads a file into memory; on failure `errno` says why.
 static bt_status load(const char* path, char** data, size_t* size) {
@@ -104,30 +77,25 @@ static bt_status load_and_parse(reading* r, const char* path, bt_node** root) {
     size_t size = 0;
     BT_TRY(load(path, &data, &size));
     bt_study* study = r->study;
-    if (study->file_count < BT_FILES_READ_MAX && identify(path, &study->files[study->file_count]))
-        ++study->file_count;
+    bt_study_note_file(study, path);
     const bt_status status = parse(r, data, size, (bt_where){keep_name(r, path), 1, 1}, root);
     free(data);
     return status;
 }
 
-/// The path of a file named in the study, which is relative to the study's own place.
-static bool path_beside(const char* study_path, const char* name, char* path) {
-    const char* slash = strrchr(study_path, '/');
-    const int folder = slash && *name != '/' ? (int)(slash - study_path) + 1 : 0;
-    const int length = snprintf(path, PATH_SIZE, "%.*s%s", folder, study_path, name);
-    return length >= 0 && length < PATH_SIZE;
+static bt_study_files files_of(reading* r) {
+    return (bt_study_files){&r->names, r->files ? r->path : NULL};
 }
 
 /// `aircraft: aircraft.yaml`: puts what that file holds in the place of its name.
 static bt_status include(reading* r, const char* chapter) {
     bt_node* node = bt_node_child(r->root, chapter);
-    char path[PATH_SIZE];
     if (!node || node->kind != BT_NODE_SCALAR || node->refused || *node->text == '\0')
         return BT_OK;
-    if (!r->files || !path_beside(r->path, node->text, path)) {
+    const bt_study_files files = files_of(r);
+    const char* path = bt_study_file(&r->reader, &files, node, chapter);
+    if (!path) {
         node->refused = true;
-        bt_reader_error(&r->reader, node->where, "%s: a file cannot be named here", chapter);
         return BT_OK;
     }
     bt_node* held = NULL;
@@ -285,7 +253,8 @@ static void read_chapters(reading* r) {
 
     bt_alternatives_apply(&r->reader, &r->document, r->root);
     read_title(r, bt_node_child(r->root, "title"));
-    bt_rig_inputs_take(&r->reader, &r->names, r->files ? r->path : NULL, r->root, study);
+    const bt_study_files files = files_of(r);
+    bt_rig_inputs_take(&r->reader, &files, r->root, study);
     read_model(r);
     if (r->root->kind != BT_NODE_MAPPING)
         return;
@@ -296,7 +265,7 @@ static void read_chapters(reading* r) {
 
     const bt_node* campaign = bt_node_child(r->root, "campaign");
     const bt_node* reliability = bt_node_child(r->root, "reliability");
-    bt_inputs_read(&r->reader, study, bt_node_child(r->root, "uncertainty"),
+    bt_inputs_read(&r->reader, &files, study, bt_node_child(r->root, "uncertainty"),
                    bt_node_child(campaign, "bounds"), bt_node_child(campaign, "levels"),
                    bt_node_child(reliability, "conditions"));
     if (r->reader.errors == before && !study->rigs_only)
@@ -427,6 +396,9 @@ void bt_study_destroy(bt_study* study) {
     bt_document places = {.newest = study->places};
     bt_document_destroy(&places);
     study->places = NULL;
-    for (int i = 0; i < study->input_count; ++i)
+    for (int i = 0; i < study->input_count; ++i) {
+        bt_sample_destroy(study->inputs[i].distribution.sample);
+        study->inputs[i].distribution.sample = NULL;
         study->inputs[i].where = BT_NOWHERE;
+    }
 }

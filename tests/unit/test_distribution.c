@@ -17,6 +17,16 @@ static const bt_distribution samples[] = {
     {.kind = BT_EXPONENTIAL, .mean = 4, .lower = 1},
     {.kind = BT_TRUNCATED_NORMAL, .mean = 0, .sd = 1, .lower = 8, .upper = INFINITY},
     {.kind = BT_TRUNCATED_NORMAL, .mean = 2, .sd = 3, .lower = -INFINITY, .upper = 4},
+    {.kind = BT_BETA, .mean = 2, .sd = 0.7, .lower = -1, .upper = 6},
+    {.kind = BT_BETA, .mean = 3, .sd = 1.1, .lower = 0, .upper = 4}, // piles up at both ends
+    {.kind = BT_GAMMA, .mean = 4, .sd = 1.5, .lower = 0.5},
+    {.kind = BT_GAMMA, .mean = 1, .sd = 1.8}, // shape below 1: no bound at its lower end
+    {.kind = BT_GAMMA, .mean = 400, .sd = 4},
+    {.kind = BT_RAYLEIGH, .scale = 2, .lower = 1},
+    {.kind = BT_LOGISTIC, .mean = 3, .sd = 0.8},
+    {.kind = BT_STUDENT, .mean = 1, .scale = 0.5, .shape = 6},
+    {.kind = BT_STUDENT, .mean = 1, .scale = 0.5, .shape = 4.5},
+    {.kind = BT_LOG_UNIFORM, .lower = 0.2, .upper = 5},
 };
 enum { SAMPLES = sizeof samples / sizeof samples[0] };
 
@@ -120,6 +130,64 @@ static void known_quantiles(void** state) {
     BT_ASSERT_NEAR(bt_distribution_quantile(&samples[9], 0.5), 40 - 5 * log(log(2)), 1e-15, 0);
 }
 
+/// Closed forms, and tables of the t and chi-square distributions.
+static void known_quantiles_of_beta_gamma_student_and_their_kin(void** state) {
+    (void)state;
+    // beta(2, 1) on 0 .. 1: sqrt(u); beta(1, 3): 1 - (1 - u)^(1/3)
+    const bt_distribution rising = {.kind = BT_BETA,
+                                    .mean = 2.0 / 3,
+                                    .sd = sqrt(1.0 / 18),
+                                    .upper = 1},
+                          falling = {
+                              .kind = BT_BETA, .mean = 0.25, .sd = sqrt(3.0 / 80), .upper = 1};
+    // chi-square with 3 degrees of freedom
+    const bt_distribution chi = {.kind = BT_GAMMA, .mean = 3, .sd = sqrt(6)};
+    const bt_distribution t2 = {.kind = BT_STUDENT, .scale = 1, .shape = 2},
+                          t5 = {.kind = BT_STUDENT, .scale = 1, .shape = 5},
+                          t10 = {.kind = BT_STUDENT, .mean = 1, .scale = 2, .shape = 10};
+    for (int k = 1; k < 100; ++k) {
+        const double u = k / 100.0;
+        BT_ASSERT_NEAR(bt_distribution_quantile(&rising, u), sqrt(u), 1e-13, 0);
+        BT_ASSERT_NEAR(bt_distribution_quantile(&falling, u), 1 - cbrt(1 - u), 1e-13, 0);
+        BT_ASSERT_NEAR(bt_distribution_quantile(&t2, u), (2 * u - 1) / sqrt(2 * u * (1 - u)), 1e-13,
+                       1e-15);
+    }
+    BT_ASSERT_NEAR(bt_distribution_quantile(&chi, 0.95), 7.814727903251179, 1e-13, 0);
+    BT_ASSERT_NEAR(bt_distribution_quantile(&chi, 0.05), 0.3518463177492723, 1e-13, 0);
+    BT_ASSERT_NEAR(bt_distribution_quantile(&t5, 0.975), 2.570581835636314, 1e-12, 0);
+    BT_ASSERT_NEAR(bt_distribution_quantile(&t10, 0.995), 1 + 2 * 3.16927267261695, 1e-12, 0);
+    BT_ASSERT_NEAR(bt_distribution_quantile(&samples[18], 0.5), 1 + 2 * sqrt(2 * log(2)), 1e-15, 0);
+    BT_ASSERT_NEAR(bt_distribution_quantile(&samples[19], 0.75), 3 + 0.8 * sqrt(3) / M_PI * log(3),
+                   1e-15, 0);
+    BT_ASSERT_NEAR(bt_distribution_quantile(&samples[22], 0.5), 1, 1e-15, 0);
+}
+
+/// What users give as sd is the standard deviation.
+static void given_standard_deviations_are_those_of_the_quantiles(void** state) {
+    (void)state;
+    for (int i = 13; i < SAMPLES; ++i) {
+        double mean, sd;
+        if (!(samples[i].sd > 0))
+            continue;
+        integrate(&samples[i], &mean, &sd);
+        BT_ASSERT_NEAR(sd, samples[i].sd, 1e-5, 0);
+    }
+}
+
+static void scores_are_those_of_the_standard_normal(void** state) {
+    (void)state;
+    for (int i = 0; i < SAMPLES; ++i)
+        for (double z = -3; z <= 3; z += 0.5)
+            BT_ASSERT_NEAR(
+                bt_distribution_score(&samples[i], bt_distribution_at_score(&samples[i], z)), z, 0,
+                1e-7);
+    // beyond what a probability near 1 can tell
+    BT_ASSERT_NEAR(bt_distribution_score(&samples[0], bt_distribution_at_score(&samples[0], 12)),
+                   12, 1e-14, 0);
+    BT_ASSERT_NEAR(bt_distribution_score(&samples[4], bt_distribution_at_score(&samples[4], 12)),
+                   12, 1e-13, 0);
+}
+
 static void probabilities_outside_the_support_are_zero_and_one(void** state) {
     (void)state;
     static const struct {
@@ -145,6 +213,8 @@ static void moving_changes_the_mean_and_nothing_else(void** state) {
         double mean, before, after;
         integrate(&samples[i], &mean, &before);
         integrate(&moved, &mean, &after);
+        if (samples[i].kind == BT_LOG_UNIFORM) // keeps upper / lower
+            before *= to / bt_distribution_mean(&samples[i]);
         BT_ASSERT_NEAR(after, before, 1e-5, 0);
     }
 }
@@ -184,6 +254,18 @@ static void unsound_parameters_are_named(void** state) {
         {{.kind = BT_WEIBULL, .scale = 1}, "shape must be positive"},
         {{.kind = BT_GUMBEL}, "scale must be positive"},
         {{.kind = BT_EXPONENTIAL, .mean = 1, .lower = 1}, "mean must be above lower"},
+        {{.kind = BT_BETA, .mean = 2, .sd = 1, .lower = 0, .upper = 2},
+         "mean must lie between lower and upper"},
+        {{.kind = BT_BETA, .mean = 1, .sd = 1, .lower = 0, .upper = 2},
+         "sd is too large for the bounds; it must be below the root of (mean - lower) (upper - "
+         "mean)"},
+        {{.kind = BT_GAMMA, .mean = 1, .sd = 1, .lower = 1}, "mean must be above lower"},
+        {{.kind = BT_RAYLEIGH}, "scale must be positive"},
+        {{.kind = BT_LOGISTIC}, "sd must be positive"},
+        {{.kind = BT_LOG_UNIFORM, .lower = 0, .upper = 1}, "lower must be positive"},
+        {{.kind = BT_STUDENT, .scale = 1, .shape = 1},
+         "freedom must be above 1; with less there is no mean"},
+        {{.kind = BT_DISCRETE}, "values are missing"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i)
         assert_string_equal(bt_distribution_check(&rows[i].d), rows[i].says);
@@ -208,6 +290,9 @@ int main(void) {
         cmocka_unit_test(a_narrow_truncated_normal_has_its_mean_in_the_middle),
         cmocka_unit_test(density_is_the_derivative_of_the_probability),
         cmocka_unit_test(known_quantiles),
+        cmocka_unit_test(known_quantiles_of_beta_gamma_student_and_their_kin),
+        cmocka_unit_test(given_standard_deviations_are_those_of_the_quantiles),
+        cmocka_unit_test(scores_are_those_of_the_standard_normal),
         cmocka_unit_test(probabilities_outside_the_support_are_zero_and_one),
         cmocka_unit_test(moving_changes_the_mean_and_nothing_else),
         cmocka_unit_test(a_constant_does_not_scatter),

@@ -132,7 +132,8 @@ static void unsound_distributions(void** state) {
     assert_says("uncertainty:\n  landing.pitch: {distribution: nomal, sd: 1 deg}\n",
                 "s.yaml:2:33: error: uncertainty.landing.pitch.distribution: \"nomal\" is none of "
                 "normal, truncated_normal, lognormal, uniform, triangular, weibull, gumbel, "
-                "exponential, constant; did you mean \"normal\"?\n");
+                "exponential, constant, beta, gamma, rayleigh, logistic, log_uniform, student, "
+                "discrete, empirical; did you mean \"normal\"?\n");
     assert_says("uncertainty:\n  landing.pitch: {distribution: normal, mean: 3 deg}\n",
                 "s.yaml:2:3: error: uncertainty.landing.pitch.sd: missing; normal needs it\n");
     assert_says("uncertainty:\n  landing.pitch: {distribution: normal, sd: 1 deg, upper: 8 deg}\n",
