@@ -210,8 +210,15 @@ static void a_locked_wheel_drags_the_rope_with_coulombs_force(void** state) {
         wheel.velocity_mps[0] = 47.5;
         bt_moving_body_to(&wheel, 0);
         press_wheel(&contact, &r, &wheel);
-        // less what the rope's own motion in the step turns the slip: (v_n / 47.5 m/s)^2 / 2
-        BT_ASSERT_NEAR(wheel.impulse_Ns[0] / step_s, -0.2 * contact.normal_N, 3e-9, 0);
+        // A segment that the tyre covers in part is pressed off its middle, turns within the step
+        // and slides sideways: of segments of 50 mm by 8.2e-5 of the slip, with 0.32 of the
+        // pressure on them. That much of the friction points sideways, and 0.32 * 8.2e-5^2 / 2 =
+        // 1.1e-9 is lacking in the direction of travel.
+        double friction_N = 0;
+        for (int i = 0; i < r.model.count; ++i)
+            friction_N += hypot(r.state.fx[i], r.state.fy[i]);
+        BT_ASSERT_NEAR(friction_N, 0.2 * contact.normal_N, 1e-14, 0);
+        BT_ASSERT_NEAR(wheel.impulse_Ns[0] / step_s, -0.2 * contact.normal_N, 1.2e-9, 0);
         assert_opposite(&r, &wheel, step_s);
         rope_close(&r);
     }

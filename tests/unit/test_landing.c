@@ -184,12 +184,16 @@ static void a_symmetric_landing_stays_symmetric(void** state) {
     (void)state;
     const bt_model_params cases[] = {REFERENCE("landing.distance=5 m"),
                                      REFERENCE("landing.distance=9 m")};
+    // Left and right are the same to the bit until a wheel touches the cable. From there on the
+    // frictions of the two wheels, found one after the other, round apart by 1e-13 m, which the
+    // hook's contact in the landing at 9 m multiplies by 200: measured 3.1e-11.
+    const double rounding_m[] = {1e-14, 1e-10};
     for (int k = 0; k < 2; ++k) {
         lateral l = {0};
         const bt_landing_result r = land_once(&cases[k], see_lateral, &l);
         BT_ASSERT_NEAR(l.fuselage_m, 0, 0, 1e-14);
         BT_ASSERT_NEAR(l.attitude, 0, 0, 1e-14);
-        BT_ASSERT_NEAR(l.cable, 0, 0, 1e-10); // measured 3e-11: rounding, grown by the contacts
+        BT_ASSERT_NEAR(l.cable, 0, 0, rounding_m[k]);
         BT_ASSERT_NEAR(r.strut_stroke_max_m[BT_LEG_LEFT], r.strut_stroke_max_m[BT_LEG_RIGHT], 1e-9,
                        0);
     }
