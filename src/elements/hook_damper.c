@@ -18,8 +18,6 @@ static const bt_hook_damper_type* const types[] = {
 };
 #undef BT_HOOK_DAMPER
 
-enum { TYPES = sizeof types / sizeof types[0] };
-
 #define BT_HOOK_DAMPER(name) #name,
 static const char* const names[] = {
 #include "elements/hook_dampers.def"
@@ -28,10 +26,6 @@ static const char* const names[] = {
 
 const bt_variant bt_hook_damper_types =
     BT_VARIANT(groups, names, BT_HOOK_DAMPER_PARAMS_SIZE, "law of the damper");
-
-const bt_hook_damper_type* bt_hook_damper_type_of(int type) {
-    return type >= 0 && type < TYPES ? types[type] : NULL;
-}
 
 void bt_hook_damper_prepare(const bt_hook_damper_variant* params, bt_hook_damper* damper) {
     *damper = (bt_hook_damper){.type = types[params->type]};

@@ -38,9 +38,6 @@ typedef struct bt_hook_damper_type {
     _Static_assert(sizeof(params_type) <= BT_HOOK_DAMPER_PARAMS_SIZE, "too many parameters");      \
     _Static_assert(sizeof(data_type) <= BT_HOOK_DAMPER_DATA_SIZE, "too many constants");
 
-/// The law by its number, as in bt_hook_damper_variant.type; NULL beyond the last.
-const bt_hook_damper_type* bt_hook_damper_type_of(int type);
-
 /// A damper ready to be evaluated; plain data.
 typedef struct bt_hook_damper {
     const bt_hook_damper_type* type;

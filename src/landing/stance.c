@@ -147,13 +147,13 @@ static double tyre_load(const void* tyre, double deflection_m) {
 }
 
 /// Stroke and height of the axle under a load. The law of a tyre is asked where it stands.
-static bt_status load_leg(const search* s, int leg, double load_N, double felt_mps2,
+static bt_status load_leg(const search* s, int leg, double load_N, double effective_mps2,
                           double* stroke_m, double* axle_m) {
     const bt_oleo* oleo = &s->f->oleo[leg];
     const bt_gear_params* gear =
         leg == BT_LEG_NOSE ? &s->params->aircraft.nose_gear : &s->params->aircraft.main_gear;
     const double most_m = gear->oleo.stroke_max_m;
-    const double carried_N = load_N - felt_mps2 * s->f->unsprung_kg[leg];
+    const double carried_N = load_N - effective_mps2 * s->f->unsprung_kg[leg];
     const double most_N = bt_oleo_force(oleo, most_m, 0);
     const char* what = "";
     if (carried_N >= most_N)
@@ -168,12 +168,12 @@ static bt_status load_leg(const search* s, int leg, double load_N, double felt_m
 }
 
 /// The stance without a hook: loads by moments about the centre of gravity.
-static bt_status guess_legs(const search* s, double felt_mps2, bt_stance* stance) {
+static bt_status guess_legs(const search* s, double effective_mps2, bt_stance* stance) {
     const bt_airframe* f = s->f;
     const double nose_m = f->axle_m[BT_LEG_NOSE][0], main_m = f->axle_m[BT_LEG_LEFT][0];
     if (!(main_m < 0 && nose_m > 0))
         return refuse_tail(s, nose_m, main_m);
-    const double weight_N = s->params->aircraft.mass_kg * felt_mps2 - f->lift.touchdown_N;
+    const double weight_N = s->params->aircraft.mass_kg * effective_mps2 - f->lift.touchdown_N;
     if (!(weight_N > 0))
         return refuse_lift(s, 0.9);
     const double nose_N = weight_N * -main_m / (nose_m - main_m);
@@ -181,7 +181,7 @@ static bt_status guess_legs(const search* s, double felt_mps2, bt_stance* stance
     double above_m[2]; // the centre of gravity above the deck, seen from each leg
     for (int leg = BT_LEG_NOSE; leg <= BT_LEG_LEFT; ++leg) {
         double axle_m = 0;
-        BT_TRY(load_leg(s, leg, load_N[leg], felt_mps2, &stance->stroke_m[leg], &axle_m));
+        BT_TRY(load_leg(s, leg, load_N[leg], effective_mps2, &stance->stroke_m[leg], &axle_m));
         above_m[leg] = axle_m - f->axle_m[leg][2] - stance->stroke_m[leg];
     }
     stance->stroke_m[BT_LEG_RIGHT] = stance->stroke_m[BT_LEG_LEFT];
@@ -408,9 +408,9 @@ static bt_status judge(search* s, bt_stance* stance) {
     return BT_ERR_INPUT;
 }
 
-static bt_status find(search* s, double felt_mps2, bt_stance* stance) {
+static bt_status find(search* s, double effective_mps2, bt_stance* stance) {
     double x[UNKNOWNS];
-    BT_TRY(guess_legs(s, felt_mps2, stance));
+    BT_TRY(guess_legs(s, effective_mps2, stance));
     BT_TRY(guess_hook(s, stance));
     read_unknowns(s, stance, x);
     stance->left_mps2 = settle(s, x);
