@@ -46,7 +46,7 @@ static void print_flips(const noise* n, const bt_noise_variant* variant,
                         const bt_noise_landing* base, const bt_noise_landing* other) {
     for (int64_t i = 0; i < n->count; ++i) {
         const bt_noise_landing *a = &base[i], *b = &other[i];
-        if (a->outcome == b->outcome)
+        if (a->outcome == b->outcome && a->wire == b->wire)
             continue;
         fprintf(stderr, "%s: landing %lld: %s (%s, %.2f mm) -> %s (%s, %.2f mm)", variant->name,
                 (long long)i, bt_outcome_name(a->outcome), bt_mode_name(a->mode), 1e3 * a->margin_m,

@@ -51,6 +51,7 @@ static bt_status take(void* user, const bt_job* job, const bt_landing_result* re
     bt_noise_landing* landing = &w->landings[job->run];
     *landing = (bt_noise_landing){.outcome = result->outcome,
                                   .mode = result->mode,
+                                  .wire = result->wire,
                                   .margin_m = result->margin_m,
                                   .wall_s = result->wall_s};
     memcpy(landing->x, job->x, sizeof landing->x);
@@ -152,7 +153,7 @@ bt_status bt_noise_compare(const bt_noise_landing* first, const bt_noise_landing
     int64_t both = 0;
     for (int64_t i = 0; i < count; ++i) {
         const bt_noise_landing *a = &first[i], *b = &second[i];
-        d.flips += a->outcome != b->outcome;
+        d.flips += a->outcome != b->outcome || a->wire != b->wire;
         d.failed += b->outcome == BT_FAILED;
         d.wrong_side += b->outcome != BT_FAILED && (b->margin_m > 0) != (b->outcome == BT_ENGAGED);
         d.wall_s += b->wall_s / (double)count;

@@ -27,6 +27,7 @@ extern const bt_noise_variant bt_noise_variants[];
 typedef struct bt_noise_landing {
     bt_outcome outcome;
     bt_mode mode;
+    int64_t wire; ///< that was caught; 0: none
     double margin_m, wall_s;
     double x[BT_INPUT_MAX]; ///< its inputs, SI
     char failure[160];      ///< "key: reason" of a failed one
@@ -57,7 +58,7 @@ double bt_noise_engaged_share(const bt_noise_landing* landings, int64_t count);
 
 /// What two runs of the same landings differ in.
 typedef struct bt_noise_difference {
-    int64_t flips;          ///< landings with another outcome
+    int64_t flips;          ///< landings with another outcome, or another wire caught
     int64_t failed;         ///< landings of the second run that failed
     int64_t wrong_side;     ///< landings of the second run whose margin and outcome disagree
     double margin_median_m; ///< median of |margin - margin|, over landings that have both

@@ -77,8 +77,20 @@ static void landings_are_the_same_for_any_number_of_threads_and_landings(void** 
     free(study);
 }
 
+static void another_wire_is_another_outcome(void** state) {
+    (void)state;
+    bt_noise_landing first[] = {landing(BT_ENGAGED, 0.02), landing(BT_ENGAGED, 0.02)};
+    bt_noise_landing second[] = {landing(BT_ENGAGED, 0.02), landing(BT_ENGAGED, 0.02)};
+    first[0].wire = first[1].wire = second[0].wire = 2;
+    second[1].wire = 3;
+    bt_noise_difference d;
+    assert_int_equal(bt_noise_compare(first, second, 2, &d), BT_OK);
+    assert_int_equal(d.flips, 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(another_wire_is_another_outcome),
         cmocka_unit_test(counts_flips_failures_and_margins_on_the_wrong_side),
         cmocka_unit_test(nothing_differs_from_itself),
         cmocka_unit_test(every_variant_changes_keys_that_exist),
