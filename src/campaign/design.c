@@ -22,6 +22,7 @@ struct bt_design {
     int64_t sobol_next; ///< index that the generator gives next; it leaves out 0, the origin
     double sobol_point[SOBOL_AXES_MAX];
     uint64_t shift[BT_INPUT_MAX];
+    bt_copula copula;    ///< of the axes, monte_carlo
     bt_mixture* mixture; ///< conditions only, with a sequence for each component
     gsl_qrng* sequence[BT_COMPONENT_MAX];
     int64_t drawn[BT_COMPONENT_MAX]; ///< points given so far
@@ -124,6 +125,8 @@ bt_status bt_design_create(const bt_study* study, bt_design** design, bt_diag* d
         return BT_ERR_MEMORY;
     d->study = study;
     d->axes = bt_design_axes(study);
+    if (study->campaign.design == BT_DESIGN_MONTE_CARLO)
+        bt_mixture_copula(study, &d->copula);
     const bt_status status = prepare(d, diag);
     if (status != BT_OK) {
         bt_design_destroy(d);
@@ -265,17 +268,25 @@ void bt_design_point(bt_design* design, int64_t run, double* x) {
             rest /= design->levels[i];
         }
     }
+    double u[BT_INPUT_MAX];
+    for (int i = 0; i < design->axes.count; ++i)
+        u[i] = fraction(design, run, i, level);
+    bt_copula_bind(&design->copula, u);
     for (int i = 0; i < design->axes.count; ++i) {
         const bt_input* input = &design->study->inputs[design->axes.input[i]];
-        const double u = fraction(design, run, i, level);
         x[i] = design->study->campaign.design == BT_DESIGN_MONTE_CARLO
-                   ? bt_distribution_quantile(&input->distribution, u)
-                   : input->lower + u * (input->upper - input->lower);
+                   ? bt_distribution_quantile(&input->distribution, u[i])
+                   : input->lower + u[i] * (input->upper - input->lower);
     }
+}
+
+static double box_log_density(const bt_input* input, double x) {
+    return x < input->lower || x > input->upper ? -INFINITY : -log(input->upper - input->lower);
 }
 
 double bt_design_log_density(const bt_design* design, const double* x) {
     const int kind = design->study->campaign.design;
+    double z[BT_INPUT_MAX] = {0};
     if (design->mixture)
         return bt_mixture_log_density(design->mixture, x, NULL);
     double sum = kind == BT_DESIGN_FULL_FACTORIAL ? NAN : 0;
@@ -283,10 +294,12 @@ double bt_design_log_density(const bt_design* design, const double* x) {
         const bt_input* input = &design->study->inputs[design->axes.input[i]];
         sum += kind == BT_DESIGN_MONTE_CARLO
                    ? bt_distribution_log_density(&input->distribution, x[i])
-               : x[i] < input->lower || x[i] > input->upper ? -INFINITY
-                                                            : -log(input->upper - input->lower);
+                   : box_log_density(input, x[i]);
+        if (design->copula.bound[i])
+            z[i] = bt_distribution_score(&input->distribution, x[i]);
     }
-    return sum;
+    return design->copula.dims > 0 && !isinf(sum) ? sum + bt_copula_log_density(&design->copula, z)
+                                                  : sum;
 }
 
 const bt_mixture* bt_design_mixture(const bt_design* design) {

@@ -4,13 +4,34 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /// Points per component, and steps, of the search for the shares.
 enum { POINTS = 256, STEPS = 60, VARIABLE_SHARES = 0x30000 };
 static const double least_share = 0.1; ///< of the equal one
 
+/// Scores of a point by the variables' own distributions.
+static void score(const bt_mixture* m, const double* x, double* z) {
+    for (int k = 0; k < m->copula.dims; ++k)
+        z[k] = m->copula.bound[k] ? bt_distribution_score(&m->base[k], x[k]) : 0;
+}
+
+/// Log density of the copula in a component, whose own variable has another score.
+static double bound_log_density(const bt_mixture* m, int component, const double* x,
+                                const double* z) {
+    double own[BT_INPUT_MAX];
+    const int k = m->moved[component];
+    if (k < 0 || !m->copula.bound[k])
+        return bt_copula_log_density(&m->copula, z);
+    memcpy(own, z, sizeof own);
+    own[k] = bt_distribution_score(&m->to[component], x[k]);
+    return bt_copula_log_density(&m->copula, own);
+}
+
 double bt_mixture_log_density(const bt_mixture* m, const double* x, double* log_p) {
     double own[BT_COMPONENT_MAX], log_base[BT_INPUT_MAX], all = 0, greatest = -INFINITY;
+    double z[BT_INPUT_MAX] = {0};
+    score(m, x, z);
     double* p = log_p ? log_p : own;
     for (int k = 0; k < m->dims; ++k)
         all += log_base[k] = bt_distribution_log_density(&m->base[k], x[k]);
@@ -22,6 +43,8 @@ double bt_mixture_log_density(const bt_mixture* m, const double* x, double* log_
             for (int j = 0; j < m->dims; ++j)
                 p[c] += j == k ? 0 : log_base[j];
         }
+        if (m->copula.dims > 0 && !isinf(p[c]))
+            p[c] += bound_log_density(m, c, x, z);
         greatest = fmax(greatest, p[c]);
     }
     if (isinf(greatest))
@@ -34,9 +57,12 @@ double bt_mixture_log_density(const bt_mixture* m, const double* x, double* log_
 }
 
 void bt_mixture_point(const bt_mixture* m, int component, const double* u, double* x) {
+    double bound[BT_INPUT_MAX];
+    memcpy(bound, u, (size_t)m->dims * sizeof *u);
+    bt_copula_bind(&m->copula, bound);
     for (int k = 0; k < m->dims; ++k)
         x[k] = bt_distribution_quantile(k == m->moved[component] ? &m->to[component] : &m->base[k],
-                                        u[k]);
+                                        bound[k]);
 }
 
 int bt_mixture_pick(const bt_mixture* m, double u) {
@@ -111,7 +137,21 @@ static int variable_of(const bt_study* study, int input) {
     return study->inputs[input].random ? variable : -1;
 }
 
+void bt_mixture_copula(const bt_study* study, bt_copula* copula) {
+    bt_correlation pairs[BT_CORRELATION_MAX];
+    int dims = 0;
+    for (int i = 0; i < study->input_count; ++i)
+        dims += study->inputs[i].random;
+    for (int i = 0; i < study->correlation_count; ++i) {
+        const bt_correlation* c = &study->correlations[i];
+        pairs[i] =
+            (bt_correlation){variable_of(study, c->first), variable_of(study, c->second), c->rank};
+    }
+    bt_copula_make(pairs, study->correlation_count, dims, copula);
+}
+
 static void lay(const bt_study* study, bt_mixture* m) {
+    bt_mixture_copula(study, &m->copula);
     for (int i = 0; i < study->input_count; ++i)
         if (study->inputs[i].random)
             m->base[m->dims++] = study->inputs[i].distribution;

@@ -18,6 +18,7 @@ typedef struct bt_mixture {
     bt_distribution base[BT_INPUT_MAX];
     int moved[BT_COMPONENT_MAX];          ///< the variable that a component moves; -1: none
     bt_distribution to[BT_COMPONENT_MAX]; ///< its distribution there
+    bt_copula copula;                     ///< of the variables, the same in every component
 } bt_mixture;
 
 /// The mixture of a study's conditions. The shares minimise the mean over the conditions of the
@@ -28,6 +29,9 @@ typedef struct bt_mixture {
 /// BT_ERR_INPUT (no random input; conditions whose other inputs are frozen have no density; said in
 /// diag); BT_ERR_MEMORY. On BT_OK the caller frees *made.
 BT_CHECKED bt_status bt_mixture_create(const bt_study* study, bt_mixture** made, bt_diag* diag);
+
+/// The copula of the inputs with a distribution, in the study's order.
+void bt_mixture_copula(const bt_study* study, bt_copula* copula);
 
 /// log q(x). x [dims].
 /// @param log_p  [components] log density of every component; may be NULL

@@ -37,6 +37,9 @@ static char* table_key(const bt_study* study, const bt_surrogate* surrogate) {
     const int event_count = bt_events_of(study, events);
     for (int i = 0; i < event_count; ++i)
         fprintf(out, "event %s: %s\n", events[i].name, events[i].text);
+    for (int i = 0; i < study->correlation_count; ++i)
+        fprintf(out, "correlation %d %d %a\n", study->correlations[i].first,
+                study->correlations[i].second, study->correlations[i].rank);
     for (int i = 0; i < study->condition_count; ++i)
         fprintf(out, "%d %a\n", study->conditions[i].input, study->conditions[i].mean);
     if (fclose(out) != 0) {
@@ -185,6 +188,14 @@ bt_status bt_stage_indices(bt_study_directory* directory, const bt_surrogate* su
     enum { SAMPLES_MAX = 200000, BOOTSTRAP = 200 };
     const bt_study* study = directory->study;
     const int64_t wanted = study->reliability.samples;
+    if (study->correlation_count > 0) {
+        const bt_correlation* c = &study->correlations[0];
+        bt_diag_add(directory->diag, BT_ERROR, BT_NOWHERE,
+                    "reliability: Sobol' indices share out a variance among independent inputs; %s "
+                    "and %s are correlated, and what they do together belongs to neither",
+                    study->inputs[c->first].path, study->inputs[c->second].path);
+        return BT_ERR_INPUT;
+    }
     const bt_sampler sampler = bt_reliability_sampler(study, -1);
     bt_surrogate_classifier* made = NULL;
     BT_TRY(bt_surrogate_classifier_create(study, surrogate, &made, directory->diag));

@@ -116,6 +116,7 @@ bt_status bt_reliability_condition(const bt_sampler* sampler, const bt_classifie
 
 bt_sampler bt_reliability_sampler(const bt_study* study, int condition) {
     bt_sampler sampler = {.dims = study->input_count,
+                          .copula = &study->copula,
                           .seed = (uint64_t)study->reliability.seed,
                           .stream = (uint32_t)(condition + 1)};
     const bt_condition* moved = condition >= 0 ? &study->conditions[condition] : NULL;

@@ -41,6 +41,23 @@ static void put_variable(const kernels* kernel, const bt_distribution* d, double
     }
 }
 
+/// The block's samples from .. from + n - 1 when the variables are bound: row by row.
+static void draw_bound(const kernels* kernel, const bt_sampler* sampler, uint64_t first, int from,
+                       int n, double* x) {
+    const int dims = sampler->dims;
+    double u[BT_INPUT_MAX + 1][BT_SAMPLE_BLOCK], row[BT_INPUT_MAX];
+    for (int k = 0; k < dims; k += 2)
+        kernel->uniforms(sampler->seed, first, (uint32_t)(k / 2) | sampler->stream << 8,
+                         DOMAIN_WORD, u[k], u[k + 1]);
+    for (int i = 0; i < n; ++i) {
+        for (int k = 0; k < dims; ++k)
+            row[k] = u[k][from + i];
+        bt_copula_bind(sampler->copula, row);
+        for (int k = 0; k < dims; ++k)
+            x[i * dims + k] = bt_distribution_quantile(&sampler->distribution[k], row[k]);
+    }
+}
+
 void bt_sampler_draw(const bt_sampler* sampler, uint64_t first, int n, double* x) {
     const kernels kernel = choose_kernels();
     const int dims = sampler->dims;
@@ -49,7 +66,10 @@ void bt_sampler_draw(const bt_sampler* sampler, uint64_t first, int n, double* x
         // Blocks lie on a fixed raster, so that a sample's bits do not depend on the call.
         const int from = (int)(first % BT_SAMPLE_BLOCK);
         const int count = n < BT_SAMPLE_BLOCK - from ? n : BT_SAMPLE_BLOCK - from;
-        for (int k = 0; k < dims; k += 2) {
+        const bool bound = sampler->copula && sampler->copula->dims > 0;
+        if (bound)
+            draw_bound(&kernel, sampler, first - (uint64_t)from, from, count, x);
+        for (int k = 0; k < dims && !bound; k += 2) {
             const uint32_t word2 = (uint32_t)(k / 2) | sampler->stream << 8;
             kernel.uniforms(sampler->seed, first - (uint64_t)from, word2, DOMAIN_WORD, a, b);
             put_variable(&kernel, &sampler->distribution[k], a, from, count, dims, x + k);

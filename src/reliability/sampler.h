@@ -1,5 +1,6 @@
-/// Points drawn from independent distributions, each named by (seed, stream, sample, variable):
-/// any sample can be drawn alone, on any thread, in any order, and gives the same bits.
+/// Points drawn from distributions, independent or bound by a copula, each named by (seed, stream,
+/// sample, variable): any sample can be drawn alone, on any thread, in any order, and gives the
+/// same bits.
 #ifndef BT_RELIABILITY_SAMPLER_H
 #define BT_RELIABILITY_SAMPLER_H
 
@@ -8,6 +9,7 @@
 typedef struct bt_sampler {
     int dims;
     bt_distribution distribution[BT_INPUT_MAX];
+    const bt_copula* copula; ///< NULL: independent
     uint64_t seed;
     uint32_t stream; ///< below 2^23; tells conditions apart
 } bt_sampler;

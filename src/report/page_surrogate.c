@@ -54,12 +54,14 @@ static void write_indices(bt_json* json, const bt_study* study, const bt_sobol_r
 }
 
 /// Sobol' indices of the classifier's outcomes over the study's distributions; nothing where those
-/// do not vary.
+/// do not vary, or where inputs are correlated and no share belongs to one of them.
 static bt_status write_sensitivity(bt_page* page, const bt_surrogate* surrogate) {
     const bt_study* study = page->subject->study;
     const bt_sampler sampler = bt_reliability_sampler(study, -1);
     bt_surrogate_classifier* made = NULL;
     bt_sobol_result result;
+    if (study->correlation_count > 0)
+        return BT_OK;
     BT_TRY(bt_surrogate_classifier_create(study, surrogate, &made, page->diag));
     bt_classifier classifier = *bt_surrogate_classifier_get(made);
     const bt_status status = bt_sobol_indices(&sampler, bt_engaged, &classifier, SAMPLES, BOOTSTRAP,

@@ -172,6 +172,14 @@ static void write_uncertainty(FILE* out, const bt_study* study) {
                 write_parameter(out, input, *names, *bt_distribution_parameter(&d, *names));
         fputs("}\n", out);
     }
+    for (int i = 0; i < study->correlation_count; ++i) {
+        const bt_correlation* c = &study->correlations[i];
+        char text[TEXT_SIZE];
+        bt_text_print_number(c->rank, text, sizeof text);
+        fprintf(out, "%s[%s, %s, %s]%s", i == 0 ? "  correlation: [" : ", ",
+                study->inputs[c->first].path, study->inputs[c->second].path, text,
+                i + 1 == study->correlation_count ? "]\n" : "");
+    }
 }
 
 static void print_input(const bt_input* input, double value, char* text) {

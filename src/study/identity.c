@@ -120,6 +120,16 @@ static void write_conditions(FILE* out, const bt_study* study) {
     fputc('\n', out);
 }
 
+static void write_correlations(FILE* out, const bt_study* study) {
+    for (int i = 0; i < study->correlation_count; ++i) {
+        const bt_correlation* c = &study->correlations[i];
+        fprintf(out, "uncertainty.correlation.%s.%s =", study->inputs[c->first].path,
+                study->inputs[c->second].path);
+        write_number(out, c->rank);
+        fputc('\n', out);
+    }
+}
+
 char* bt_study_identity(const bt_study* study) {
     char* text = NULL;
     size_t size = 0;
@@ -127,6 +137,8 @@ char* bt_study_identity(const bt_study* study) {
     if (!out)
         return NULL;
     write_design(out, study);
+    if (bt_design_is_random(study->campaign.design))
+        write_correlations(out, study);
     if (study->campaign.design == BT_DESIGN_CONDITIONS)
         write_conditions(out, study);
     writer w = {.out = out, .study = study, .params = &study->model};

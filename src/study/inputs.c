@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "study/correlations.h"
 #include "study/uncertainty.h"
 
 #include <math.h>
@@ -240,6 +241,8 @@ void bt_inputs_read(bt_reader* reader, const bt_study_files* files, bt_study* st
         read_bounds(reader, study, bounds);
     // the tables' order, so that the order of a file's lines never changes a result
     qsort(study->inputs, (size_t)study->input_count, sizeof study->inputs[0], by_offset);
+    if (bt_node_child(uncertainty, "correlation"))
+        bt_correlations_read(reader, study, bt_node_child(uncertainty, "correlation"));
     if (levels)
         read_levels(reader, study, levels, bounds);
     if (conditions)

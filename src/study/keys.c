@@ -245,7 +245,8 @@ static void put_distributions(const writer* w) {
            "Maps paths of the model to distributions, as in\n"
            "`landing.pitch: {distribution: normal, mean: 3 deg, sd: 1.3 deg}`. A mean that is "
            "left out is the\nkey's own value; a location `lower` that is left out is 0. What each "
-           "means, and how values come\nfrom a file: docs/howto-inputs.md.\n\n"
+           "means, what `correlation:\n[[path, path, rank correlation]]` does, and how values "
+           "come\nfrom a file: docs/howto-inputs.md.\n\n"
            "| distribution     | parameters |\n|------------------|------------|\n");
     for (int k = 0; k < BT_DISTRIBUTION_KINDS; ++k) {
         put(w, "| %-16s |", bt_distribution_names[k]);

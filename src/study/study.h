@@ -2,7 +2,7 @@
 #ifndef BT_STUDY_STUDY_H
 #define BT_STUDY_STUDY_H
 
-#include "base/distribution.h"
+#include "base/copula.h"
 #include "campaign/params.h"
 #include "landing/landing.h"
 #include "reliability/params.h"
@@ -12,7 +12,12 @@
 
 #include <stdint.h>
 
-enum { BT_INPUT_MAX = 32, BT_CONDITION_MAX = 64, BT_PATH_MAX = 128 };
+enum {
+    BT_INPUT_MAX = BT_COPULA_MAX,
+    BT_CORRELATION_MAX = 496,
+    BT_CONDITION_MAX = 64,
+    BT_PATH_MAX = 128
+};
 
 /// One random input, or one axis of the design.
 typedef struct bt_input {
@@ -64,6 +69,9 @@ typedef struct bt_study {
         rigs_only; ///< no landing is described: `model` holds the tested parts of the aircraft only
     int input_count;
     bt_input inputs[BT_INPUT_MAX]; ///< in the order of the model's tables
+    int correlation_count;
+    bt_correlation correlations[BT_CORRELATION_MAX]; ///< of random inputs (indices)
+    bt_copula copula;                                ///< of all inputs, by those
     int condition_count;
     bt_condition conditions[BT_CONDITION_MAX];
     char* text;    ///< the study as one file: aircraft and deck included, --set applied,

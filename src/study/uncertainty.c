@@ -106,6 +106,8 @@ void bt_uncertainty_read(bt_reader* reader, const bt_study_files* files, bt_stud
         return;
     for (const bt_node* child = node->first; child; child = child->next) {
         char path[PATH_SIZE];
+        if (strcmp(child->key->text, "correlation") == 0) // when all inputs are known
+            continue;
         bt_reader_join(path, sizeof path, "uncertainty", child->key->text);
         bt_input* input = bt_inputs_find_or_add(reader, study, child->key, "uncertainty");
         if (input)

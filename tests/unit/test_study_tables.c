@@ -60,13 +60,14 @@ static void assert_says(fixture* f, const char* lines, const char* table, const 
     bt_study study;
     assert_int_equal(read_study(f, lines, table, &study), BT_ERR_INPUT);
     const size_t length = strlen(f->folder) + 1;
-    char plain[4096] = "";
-    for (const char* at = f->said.text; *at;) {
-        const bool here = strncmp(at, f->folder, length - 1) == 0;
-        at += here ? length : 0;
-        strncat(plain, at, here ? 0 : 1);
-        at += here ? 0 : 1;
-    }
+    char plain[4096];
+    size_t used = 0;
+    for (const char* at = f->said.text; *at && used + 1 < sizeof plain;)
+        if (strncmp(at, f->folder, length - 1) == 0)
+            at += length;
+        else
+            plain[used++] = *at++;
+    plain[used] = '\0';
     assert_string_equal(plain, want);
 }
 
@@ -179,6 +180,53 @@ static void samples_that_cannot_be_are_refused_at_their_place(void** state) {
                 "for 1 values\n");
 }
 
+#define PAIRS                                                                                      \
+    DRAWN "uncertainty:\n  landing.sink_speed: {distribution: normal, sd: 0.5 m/s}\n"              \
+          "  landing.pitch: {distribution: normal, sd: 1 deg}\n"                                   \
+          "  landing.distance: {distribution: gamma, sd: 1 m}\n"                                   \
+          "  aircraft.mass: {distribution: discrete, values: [20 t, 21 t], probabilities: [0.5, "  \
+          "0.5]}\n"                                                                                \
+          "  correlation: "
+
+static void correlations_are_read_and_echoed(void** state) {
+    fixture* f = *state;
+    bt_study study;
+    assert_reads(f, PAIRS "[[landing.distance, landing.pitch, -0.4]]\n", "", &study);
+    assert_int_equal(study.correlation_count, 1);
+    assert_string_equal(study.inputs[study.correlations[0].first].path, "landing.distance");
+    assert_true(study.copula.dims == study.input_count);
+    assert_text_is_whole(&study);
+    bt_study_destroy(&study);
+}
+
+static void correlations_that_cannot_be_are_refused_at_their_place(void** state) {
+    fixture* f = *state;
+    assert_says(f, PAIRS "[[landing.sinkspeed, landing.pitch, 0.4]]\n", "",
+                "s.yaml:7:18: error: uncertainty.correlation: \"landing.sinkspeed\" has no "
+                "distribution in uncertainty; did you mean \"landing.sink_speed\"?\n");
+    assert_says(f, PAIRS "[[landing.sink_speed, landing.pitch, 1.4]]\n", "",
+                "s.yaml:7:53: error: uncertainty.correlation: 1.4 is outside -1 .. 1\n");
+    assert_says(f, PAIRS "[[landing.sink_speed, aircraft.mass, 0.4]]\n", "",
+                "s.yaml:7:38: error: uncertainty.correlation: aircraft.mass takes single values "
+                "(discrete), which have no density that a correlation could change; an empirical "
+                "one has with a bandwidth\n");
+    assert_says(f,
+                PAIRS "[[landing.sink_speed, landing.pitch, 0.9], [landing.pitch, "
+                      "landing.distance, 0.9], [landing.sink_speed, landing.distance, -0.5]]\n",
+                "",
+                "s.yaml:7:99: error: uncertainty.correlation: with landing.sink_speed and "
+                "landing.distance at -0.5 the correlations are not positive definite: no variables "
+                "can be correlated so (pairs not given are 0); weaken this one or others of these "
+                "inputs\n");
+    assert_says(f,
+                PAIRS "[[landing.sink_speed, landing.pitch, 0.1], [landing.pitch, "
+                      "landing.sink_speed, 0.2]]\n",
+                "", "s.yaml:7:59: error: uncertainty.correlation: this pair is given twice\n");
+    assert_says(f, PAIRS "[landing.pitch]\n", "",
+                "s.yaml:7:17: error: uncertainty.correlation: two inputs and their rank "
+                "correlation are wanted here, as in [landing.sink_speed, landing.pitch, -0.4]\n");
+}
+
 /// A mean that a condition moves to must leave a distribution.
 static void a_condition_that_leaves_no_distribution_is_refused(void** state) {
     fixture* f = *state;
@@ -196,6 +244,9 @@ int main(void) {
         cmocka_unit_test_setup_teardown(families_read_back_to_the_same, setup, teardown),
         cmocka_unit_test_setup_teardown(samples_that_cannot_be_are_refused_at_their_place, setup,
                                         teardown),
+        cmocka_unit_test_setup_teardown(correlations_are_read_and_echoed, setup, teardown),
+        cmocka_unit_test_setup_teardown(correlations_that_cannot_be_are_refused_at_their_place,
+                                        setup, teardown),
         cmocka_unit_test_setup_teardown(a_condition_that_leaves_no_distribution_is_refused, setup,
                                         teardown),
     };

@@ -116,6 +116,7 @@ static const world worlds[] = {
     {"far conditions", 2, half_space, 4, 0.3, 0, LANDINGS},
     {"lognormal inputs", 2, half_space, 1, 0.3, 1, LANDINGS},
     {"uniform inputs", 2, band, 0.5, 0.3, 2, LANDINGS},
+    {"correlated inputs", 3, half_space, 2, 0.3, 3, LANDINGS},
 };
 
 static bt_distribution input_of(int kind) {
@@ -136,6 +137,10 @@ static void make_study(const world* w, bt_study* study) {
     for (int k = 0; k < w->dims; ++k) {
         study->inputs[k].random = true;
         study->inputs[k].distribution = input_of(w->kind);
+    }
+    if (w->kind == 3) {
+        study->correlations[study->correlation_count++] = (bt_correlation){0, 1, 0.6};
+        study->correlations[study->correlation_count++] = (bt_correlation){1, 2, -0.5};
     }
     const double mean = bt_distribution_mean(&study->inputs[0].distribution);
     for (int c = 0; c < CONDITIONS - 1; ++c)
