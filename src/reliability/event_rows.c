@@ -67,7 +67,7 @@ static void condition_on_zone(bt_event_estimate* e, double share) {
     e->ci95 = divided(e->ci95, share);
     e->sampling /= share;
     e->unseen /= share;
-    e->classifier /= share;
+    e->classifier = fmin(1, e->classifier / share); // its share is sampled, that of the zone exact
 }
 
 static void fill_zone(const family* f, int zone, int64_t hits, int64_t samples,

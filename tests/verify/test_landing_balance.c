@@ -191,6 +191,29 @@ static void with_the_cable_too_nothing_gives_energy(void** state) {
     bt_lander_destroy(lander);
 }
 
+/* ---- the whole way over a deck of four wires ---- */
+
+/// The hook rides over the first wire, the wheels roll over the others before it comes: energy that
+/// is lost in any of it never comes back.
+static void over_four_wires_nothing_gives_energy(void** state) {
+    (void)state;
+    const bt_model_params model =
+        REFERENCE("landing.solver.cable_courant=0.25", "deck.wires.number=4",
+                  "deck.wires.spacing=6 m", "landing.distance=2 m");
+    bt_lander* lander = new_lander();
+    ledger b = {.begun = false};
+    const bt_landing_result r = land(lander, &model, see_ledger, &b);
+    bt_lander_destroy(lander);
+    assert_true(r.contact_count > 1);
+    assert_int_equal(r.contacts[0].mode, BT_MODE_RIDDEN_OVER);
+    BT_VERIFY("landing", "four wires: largest gain of the airframe over its losses",
+              b.airframe_given_J / b.airframe_lost_J, 0, 1e-11, "dissipation");
+    BT_VERIFY("landing", "four wires: largest gain of the cables over the work on them",
+              b.cable_given_J / b.on_cable_J, 0, 1e-3, "dissipation");
+    assert_true(b.friction_J < 0);
+    assert_true(b.on_airframe_J + b.on_cable_J < b.friction_J);
+}
+
 /* ---- the hook's free body ---- */
 
 typedef struct free_body {
@@ -302,6 +325,7 @@ int main(void) {
         cmocka_unit_test(energy_never_rises_before_the_cable),
         cmocka_unit_test(without_dampers_the_cable_keeps_what_the_contacts_give_it),
         cmocka_unit_test(with_the_cable_too_nothing_gives_energy),
+        cmocka_unit_test(over_four_wires_nothing_gives_energy),
         cmocka_unit_test(in_the_air_pivot_damper_and_weight_move_the_hook),
         cmocka_unit_test(the_bounce_converges_at_second_order),
     };

@@ -34,6 +34,25 @@ static void a_deck_that_heaves_steadily_is_a_deck_at_rest(void** state) {
     }
 }
 
+/// So it is with four wires, over which it lands with drift and yaw too.
+static void four_wires_on_a_deck_that_heaves_steadily_are_at_rest(void** state) {
+    (void)state;
+    static const char* const sink[2] = {"landing.sink_speed=4 m/s", "landing.sink_speed=5.25 m/s"};
+    static const char* const heave[2] = {"deck.motion.heave.velocity=1.25 m/s",
+                                         "deck.motion.heave.velocity=0 m/s"};
+    bt_landing_result r[2];
+    for (int k = 0; k < 2; ++k) {
+        const bt_model_params model =
+            REFERENCE("deck.wires.number=4", "landing.distance=2 m", sink[k], heave[k],
+                      "landing.roll=1 deg", "landing.drift=0.5 m/s", "landing.yaw=1 deg");
+        r[k] = once(&model, NULL, NULL);
+    }
+    assert_true(r[0].state_hash == r[1].state_hash);
+    assert_true(r[0].contact_count == r[1].contact_count && r[0].contact_count > 0);
+    for (int c = 0; c < r[0].contact_count; ++c)
+        assert_memory_equal(&r[0].contacts[c].margin_m, &r[1].contacts[c].margin_m, sizeof(double));
+}
+
 /* ---- equivalence ---- */
 
 /// A deck that accelerates upward by a is a deck at rest under gravity g + a, with the same lift.
@@ -268,6 +287,7 @@ static void motions_beyond_the_frame_are_refused(void** state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_deck_that_heaves_steadily_is_a_deck_at_rest),
+        cmocka_unit_test(four_wires_on_a_deck_that_heaves_steadily_are_at_rest),
         cmocka_unit_test(heave_acceleration_is_gravity),
         cmocka_unit_test(the_glide_is_straight_over_a_deck_that_moves),
         cmocka_unit_test(the_frame_does_the_work_that_its_acceleration_asks_for),
