@@ -1,30 +1,38 @@
-#include "base/units.h"
 #include "cli/chain.h"
 #include "cli/output.h"
-#include "report/history.h"
+#include "cli/recorder.h"
+#include "pipeline/find_run.h"
 #include "report/landing_report.h"
+
+#include "base/units.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { OPTION_HISTORY, OPTION_MISSED, OPTION_NEAREST };
 
-/// Repeats a run of the ledger.
-static bt_status repeat(bt_chain* chain, const bt_ledger_row* row, bt_history* history,
-                        bt_landing_result* result) {
-    const bt_axes axes = bt_design_axes(&chain->study);
-    bt_model_params* model = malloc(sizeof *model);
+/// A run of the ledger, repeated: into the file, when there is one.
+typedef struct repetition {
+    bt_chain* chain;
+    const bt_ledger_row* row;
+    const char* file; ///< NULL: none
+    bt_recorder recorder;
+    bt_landing_result result;
+    bt_model_params model; ///< as it landed
+} repetition;
+
+/// Repeats the run.
+static bt_status repeat(repetition* r) {
+    const bt_study* study = &r->chain->study;
+    const bt_axes axes = bt_design_axes(study);
     bt_lander* lander = NULL;
-    bt_status status = model ? bt_lander_create(&lander) : BT_ERR_MEMORY;
-    if (status == BT_OK) {
-        bt_lander_obey(lander, &bt_interrupted);
-        *model = chain->study.model;
-        status = bt_landing_at(lander, model, chain->study.inputs, &axes, row->x, result,
-                               history ? bt_history_observe : NULL, history);
-    }
+    BT_TRY(bt_lander_create(&lander));
+    bt_lander_obey(lander, &bt_interrupted);
+    r->model = study->model;
+    const bt_status status =
+        bt_landing_at(lander, &r->model, study->inputs, &axes, r->row->x, &r->result,
+                      r->file ? bt_recorder_observe : NULL, &r->recorder);
     bt_lander_destroy(lander);
-    free(model);
     return status;
 }
 
@@ -50,109 +58,75 @@ static void print_input(const bt_input* input, double value) {
     printf("  %s = %s%s%s\n", input->path, text, *unit ? " " : "", unit);
 }
 
-static bt_status replay(bt_chain* chain, const bt_ledger_row* row, bt_history* history) {
-    bt_landing_result result;
-    BT_TRY(repeat(chain, row, history, &result));
-    BT_TRY(compare(row, &result, &chain->diag));
-    const bt_command* command = chain->command;
-    if (history)
-        BT_TRY(bt_history_write(history, command->option[OPTION_HISTORY], &chain->study, &result,
-                                &chain->diag));
-    if (command->json) {
+static bt_status write(const repetition* r) {
+    char name[64];
+    snprintf(name, sizeof name, "landing %lld", (long long)r->row->run);
+    const bt_page_landing_of of = {r->row->run, name, &r->model, &r->result};
+    return r->file ? bt_recorder_write(&r->recorder, r->chain->command, &r->chain->study, r->file,
+                                       &of, &r->chain->diag)
+                   : BT_OK;
+}
+
+static void print(const repetition* r) {
+    const bt_study* study = &r->chain->study;
+    const bt_axes axes = bt_design_axes(study);
+    if (r->chain->command->json) {
         bt_json json = {.out = stdout};
-        bt_landing_write_json(&json, &result);
-    } else {
-        const bt_axes axes = bt_design_axes(&chain->study);
-        printf("run %lld, the same to the bit (state %016" PRIx64 ")\n", (long long)row->run,
-               result.state_hash);
-        for (int i = 0; i < axes.count; ++i)
-            print_input(&chain->study.inputs[axes.input[i]], row->x[i]);
-        bt_landing_print(stdout, &result);
+        bt_landing_write_json(&json, &r->result);
+        return;
     }
-    return BT_OK;
+    printf("run %lld, the same to the bit (state %016" PRIx64 ")\n", (long long)r->row->run,
+           r->result.state_hash);
+    for (int i = 0; i < axes.count; ++i)
+        print_input(&study->inputs[axes.input[i]], r->row->x[i]);
+    bt_landing_print(stdout, &r->result);
+}
+
+/// FILE of --history or of -o.
+static const char* file_of(const bt_command* command) {
+    const char* file = command->option[OPTION_HISTORY];
+    if (file)
+        return file;
+    return bt_output_kind(command->output) == BT_OUTPUT_DIRECTORY ? NULL : command->output;
+}
+
+static bt_status replay(bt_chain* chain, const bt_ledger_row* row) {
+    repetition* r = calloc(1, sizeof *r);
+    if (!r)
+        return BT_ERR_MEMORY;
+    r->chain = chain;
+    r->row = row;
+    r->file = file_of(chain->command);
+    bt_status status =
+        r->file ? bt_recorder_start(r->file, false, &r->recorder, &chain->diag) : BT_OK;
+    if (status == BT_OK)
+        status = repeat(r);
+    if (status == BT_OK)
+        status = compare(row, &r->result, &chain->diag);
+    if (status == BT_OK)
+        status = write(r);
+    if (status == BT_OK)
+        print(r);
+    bt_recorder_end(&r->recorder);
+    free(r);
+    return status;
 }
 
 // --- which run ------------------------------------------------------------------------------
 
-/// A search through the ledger: the first run, or the one nearest to a point, of all or of the
-/// missed ones.
-typedef struct search {
-    const bt_study* study;
-    bt_axes axes;
-    bool missed, near;
-    bool wanted[BT_INPUT_MAX]; ///< axes that the point names
-    double point[BT_INPUT_MAX];
-    double distance;
-    bool found;
-    bt_ledger_row row;
-} search;
-
-/// A length along an axis: its range, or else its standard deviation.
-static double scale_of(const bt_input* input) {
-    const double scale = input->bounded ? input->upper - input->lower : input->distribution.sd;
-    return scale > 0 ? scale : 1;
-}
-
-static double distance_to(const search* s, const double* x) {
-    double sum = 0;
-    for (int i = 0; i < s->axes.count; ++i) {
-        const double d = (x[i] - s->point[i]) / scale_of(&s->study->inputs[s->axes.input[i]]);
-        sum += s->wanted[i] ? d * d : 0;
-    }
-    return sum;
-}
-
-static bool consider(void* user, const bt_ledger_row* row) {
-    search* s = user;
-    if (s->missed && row->result.outcome != BT_MISSED)
-        return true;
-    const double distance = distance_to(s, row->x);
-    if (!s->found || distance < s->distance) {
-        s->row = *row;
-        s->distance = distance;
-        s->found = true;
-    }
-    return s->near;
-}
-
-/// One "landing.pitch=3 deg" of a point.
-static bt_status read_coordinate(const bt_command* command, search* s, const char* text) {
-    char why[256] = "is no axis of the campaign";
-    const size_t length = strcspn(text, "=");
-    for (int i = 0; i < s->axes.count && text[length]; ++i) {
-        const bt_input* input = &s->study->inputs[s->axes.input[i]];
-        if (strlen(input->path) != length || strncmp(input->path, text, length) != 0)
-            continue;
-        s->wanted[i] = true;
-        if (bt_unit_parse(text + length + 1, *input->field->unit ? input->field->unit : "1",
-                          &s->point[i], why, sizeof why) == BT_OK)
-            return BT_OK;
-        break;
-    }
-    return bt_usage_error(command, "--nearest takes 'PATH=VALUE, ...': %.*s: %s", (int)length, text,
-                          why);
-}
-
-static bt_status read_point(const bt_command* command, search* s) {
-    char text[1024];
-    snprintf(text, sizeof text, "%s", command->option[OPTION_NEAREST]);
-    char* rest = NULL;
-    for (char* word = strtok_r(text, ",", &rest); word; word = strtok_r(NULL, ",", &rest))
-        BT_TRY(read_coordinate(command, s, word + strspn(word, " ")));
-    s->near = true;
-    return BT_OK;
-}
-
 static bt_status find(bt_chain* chain, bt_ledger_row* row) {
     const bt_command* command = chain->command;
-    search s = {.study = &chain->study, .axes = bt_design_axes(&chain->study)};
-    s.missed = command->option[OPTION_MISSED] != NULL;
-    if (command->option[OPTION_NEAREST])
-        BT_TRY(read_point(command, &s));
-    BT_TRY(bt_ledger_walk(chain->ledger, consider, &s, &chain->diag));
-    if (!s.found)
-        return bt_usage_error(command, "the ledger has no %s", s.missed ? "missed run" : "run");
-    *row = s.row;
+    const char* nearest = command->option[OPTION_NEAREST];
+    bt_run_search search = {.axes = bt_design_axes(&chain->study),
+                            .missed = command->option[OPTION_MISSED] != NULL};
+    char why[512];
+    bool found = false;
+    if (nearest && bt_run_search_read(&chain->study, nearest, &search, why, sizeof why) != BT_OK)
+        return bt_usage_error(command, "--nearest %s", why);
+    BT_TRY(bt_run_find(&chain->study, chain->ledger, &search, row, &found, &chain->diag));
+    if (!found)
+        return bt_usage_error(command, "the ledger has no %s",
+                              search.missed ? "missed run" : "run");
     return BT_OK;
 }
 
@@ -166,12 +140,7 @@ static bt_status get(bt_chain* chain, int64_t run_number, bt_ledger_row* row) {
 static bt_status find_and_replay(bt_chain* chain, int64_t run_number) {
     bt_ledger_row row;
     BT_TRY(run_number < 0 ? find(chain, &row) : get(chain, run_number, &row));
-    bt_history* history = NULL;
-    if (chain->command->option[OPTION_HISTORY])
-        BT_TRY(bt_history_create(&history));
-    const bt_status status = replay(chain, &row, history);
-    bt_history_destroy(history);
-    return status;
+    return replay(chain, &row);
 }
 
 static bt_status run_replay(const bt_command* command) {
@@ -191,10 +160,12 @@ static bt_status run_replay(const bt_command* command) {
 
 static const struct argp_option options[] = {
     {"history", BT_OPTION + OPTION_HISTORY, "FILE", 0,
-     "write the run's time histories, .h5 or .csv", 1},
+     "write the run, as -o FILE does, when -o names the study directory", 1},
     {"missed", BT_OPTION + OPTION_MISSED, 0, 0, "the first run that missed, instead of run N", 1},
-    {"nearest", BT_OPTION + OPTION_NEAREST, "'PATH=VALUE, ...'", 0,
-     "the run nearest to these inputs (with --missed: of those that missed), instead of run N", 1},
+    {"nearest", BT_OPTION + OPTION_NEAREST, "'PATH=VALUE, ...'|limit", 0,
+     "the run nearest to these inputs, or nearest to the limit between catch and miss (the least "
+     "margin); with --missed: of those that missed",
+     1},
     {0},
 };
 
@@ -205,10 +176,13 @@ const bt_verb bt_verb_replay = {
     .text = "Takes the inputs of run N from the ledger, runs that landing again, and compares the "
             "final state with the one recorded; a difference is an error.\n\n"
             "  bolter replay study.yaml 17\n"
-            "  bolter replay study.yaml --missed --nearest 'landing.pitch=3 deg'",
+            "  bolter replay study.yaml --missed --nearest 'landing.pitch=3 deg'\n"
+            "  bolter replay study.yaml --nearest limit -o run.html   a page that plays it\n"
+            "  bolter replay study.yaml 17 -o run.h5    time histories (.csv: CSV; .pvd: ParaView)",
     .options = options,
     .least_words = 1,
     .most_words = 2,
-    .outputs = BT_OUTPUT_DIRECTORY,
+    .outputs = BT_OUTPUT_HISTORIES | BT_OUTPUT_TABLE | BT_OUTPUT_PAGE | BT_OUTPUT_PARAVIEW |
+               BT_OUTPUT_DIRECTORY,
     .run = run_replay,
 };

@@ -66,7 +66,7 @@ static bt_status make(const bt_page_subject* subject, const char* path, writer* 
     bt_json_string(&json, "title", subject->study->title);
     bt_status status = write(&page, user);
     bt_json_end_object(&json);
-    bt_page_landings_destroy(&page.landings);
+    bt_landings_destroy(&page.landings);
     if (fclose(out) != 0 && status == BT_OK)
         status = BT_ERR_MEMORY;
     if (status == BT_OK)
@@ -79,23 +79,23 @@ static bt_status make(const bt_page_subject* subject, const char* path, writer* 
 
 typedef struct one_landing {
     const bt_playback* playback;
-    const bt_landing_result* result;
+    const bt_page_landing_of* of;
 } one_landing;
 
 static bt_status write_landing(bt_page* page, const void* user) {
     const one_landing* one = user;
     bt_json_begin_array(page->json, "playback");
-    BT_TRY(bt_playback_write(page->json, one->playback, -1, "landing", &page->subject->study->model,
-                             one->result, page->diag));
+    BT_TRY(bt_playback_write(page->json, one->playback, one->of->run, one->of->name, one->of->model,
+                             one->of->result, page->diag));
     bt_json_end_array(page->json);
     bt_page_study_write(page);
     return BT_OK;
 }
 
 bt_status bt_page_landing(const bt_page_subject* subject, const char* path,
-                          const bt_playback* playback, const bt_landing_result* result,
+                          const bt_playback* playback, const bt_page_landing_of* landing,
                           bt_diag* diag) {
-    const one_landing one = {playback, result};
+    const one_landing one = {playback, landing};
     return make(subject, path, write_landing, &one, diag);
 }
 
@@ -115,7 +115,6 @@ static bt_status write_report(bt_page* page, const void* user) {
     (void)user;
     bt_json_bool(page->json, "reference_study", bt_study_is_reference(page->subject->study));
     BT_TRY(bt_page_landings_read(page));
-    BT_TRY(bt_page_atlas_find(page));
     bt_page_landings_write(page);
     write_reliability(page);
     bt_page_atlas_write(page);

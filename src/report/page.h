@@ -19,11 +19,19 @@ typedef struct bt_page_subject {
     const atomic_int* stop; ///< may be NULL; once not 0: BT_ERR_INTERRUPTED
 } bt_page_subject;
 
+/// A landing to look at.
+typedef struct bt_page_landing_of {
+    int64_t run;      ///< number in the ledger; -1: the study's own landing
+    const char* name; ///< what it is called
+    const bt_model_params* model;
+    const bt_landing_result* result;
+} bt_page_landing_of;
+
 /// A page with one landing to look at. An HTML file that Bolter did not write stays.
 ///
 /// @return BT_OK; BT_ERR_INPUT (no page in this build), BT_ERR_IO, said in diag; BT_ERR_MEMORY
 BT_CHECKED bt_status bt_page_landing(const bt_page_subject* subject, const char* path,
-                                     const bt_playback* playback, const bt_landing_result* result,
+                                     const bt_playback* playback, const bt_page_landing_of* landing,
                                      bt_diag* diag);
 
 /// The report of a study from whatever its directory holds: the answer, conditions, landings,

@@ -2,6 +2,7 @@
 
 #include "base/directory.h"
 #include "base/units.h"
+#include "report/atlas_report.h"
 #include "report/packed.h"
 
 #include <math.h>
@@ -13,50 +14,6 @@ enum { DRAWN_MOST = 10000 }; ///< landings in the page; of a larger ledger every
 
 // --- reading ----------------------------------------------------------------------------------
 
-static bool resize(void** data, size_t size) {
-    void* moved = realloc(*data, size);
-    if (moved)
-        *data = moved;
-    return moved != NULL;
-}
-
-static bool grow(bt_page_landings* l) {
-    if (l->count < l->room)
-        return true;
-    const size_t room = l->room ? 2 * (size_t)l->room : 4096;
-    const size_t dims = (size_t)(l->axes.count > 0 ? l->axes.count : 1);
-    if (!resize((void**)&l->run, room * sizeof *l->run) ||
-        !resize((void**)&l->x, room * dims * sizeof *l->x) ||
-        !resize((void**)&l->margin_m, room * sizeof *l->margin_m) ||
-        !resize((void**)&l->mode, room) || !resize((void**)&l->outcome, room) ||
-        !resize((void**)&l->bounced, room))
-        return false;
-    l->room = (int)room;
-    return true;
-}
-
-typedef struct reading {
-    bt_page_landings* landings;
-    bool out_of_memory;
-} reading;
-
-static bool take(void* user, const bt_ledger_row* row) {
-    reading* r = user;
-    bt_page_landings* l = r->landings;
-    if (!grow(l)) {
-        r->out_of_memory = true;
-        return false;
-    }
-    const int i = l->count++;
-    l->run[i] = row->run;
-    memcpy(l->x + (size_t)i * (size_t)l->axes.count, row->x, (size_t)l->axes.count * sizeof *l->x);
-    l->margin_m[i] = row->result.margin_m;
-    l->mode[i] = (uint8_t)row->result.mode;
-    l->outcome[i] = (uint8_t)row->result.outcome;
-    l->bounced[i] = row->result.bounce_count > 0 && row->result.bounces[0].complete;
-    return true;
-}
-
 bt_status bt_page_landings_read(bt_page* page) {
     const bt_study* study = page->subject->study;
     char path[BT_FILE_PATH_MAX];
@@ -66,20 +23,9 @@ bt_status bt_page_landings_read(bt_page* page) {
         return BT_OK;
     bt_ledger* ledger = NULL;
     BT_TRY(bt_ledger_open(path, study, BT_LEDGER_READ, &ledger, page->diag));
-    reading r = {.landings = &page->landings};
-    bt_status status = bt_ledger_walk(ledger, take, &r, page->diag);
+    const bt_status status = bt_landings_read(study, ledger, &page->landings, page->diag);
     bt_ledger_close(ledger);
-    return r.out_of_memory ? BT_ERR_MEMORY : status;
-}
-
-void bt_page_landings_destroy(bt_page_landings* l) {
-    free(l->run);
-    free(l->x);
-    free(l->margin_m);
-    free(l->mode);
-    free(l->outcome);
-    free(l->bounced);
-    *l = (bt_page_landings){0};
+    return status == BT_OK ? bt_atlas_make(&page->landings, &page->atlas) : status;
 }
 
 // --- writing ----------------------------------------------------------------------------------
@@ -104,7 +50,7 @@ static void write_inputs(bt_page* page) {
 }
 
 static void write_counts(bt_page* page) {
-    const bt_page_landings* l = &page->landings;
+    const bt_landings* l = &page->landings;
     int outcomes[3] = {0}, modes[BT_MODE_COUNT] = {0};
     for (int i = 0; i < l->count; ++i) {
         ++outcomes[l->outcome[i]];
@@ -123,7 +69,7 @@ static void write_counts(bt_page* page) {
 }
 
 /// Every landing that was not caught, and every n-th of the others.
-static int choose(const bt_page_landings* l, int* chosen) {
+static int choose(const bt_landings* l, int* chosen) {
     int caught = 0, count = 0, seen = 0;
     for (int i = 0; i < l->count; ++i)
         caught += l->outcome[i] == BT_ENGAGED;
@@ -136,7 +82,7 @@ static int choose(const bt_page_landings* l, int* chosen) {
 }
 
 static void write_columns(bt_page* page, const int* chosen, int count, double* values) {
-    const bt_page_landings* l = &page->landings;
+    const bt_landings* l = &page->landings;
     const int dims = l->axes.count;
     for (int i = 0; i < count; ++i)
         for (int k = 0; k < dims; ++k)
@@ -156,7 +102,7 @@ static void write_columns(bt_page* page, const int* chosen, int count, double* v
 }
 
 void bt_page_landings_write(bt_page* page) {
-    const bt_page_landings* l = &page->landings;
+    const bt_landings* l = &page->landings;
     write_inputs(page);
     bt_json_begin_array(page->json, "modes");
     for (int mode = 0; mode < BT_MODE_COUNT; ++mode)
@@ -174,4 +120,26 @@ void bt_page_landings_write(bt_page* page) {
     }
     free(chosen);
     free(values);
+}
+
+void bt_page_atlas_write(bt_page* page) {
+    bt_json_begin_array(page->json, "atlas");
+    for (int i = 0; i < page->atlas.count; ++i) {
+        const bt_miss_group* g = &page->atlas.group[i];
+        char region[BT_PATH_MAX + 96];
+        bt_atlas_region(page->subject->study, &page->landings, g, region, sizeof region);
+        bt_json_begin_object(page->json, NULL);
+        bt_json_string(page->json, "mode", bt_mode_name(g->mode));
+        bt_json_string(page->json, "region", region);
+        bt_json_integer(page->json, "count", g->count);
+        bt_json_rounded(page->json, "share", g->share, 6);
+        bt_json_rounded(page->json, "probability", g->probability, 6);
+        bt_json_begin_array(page->json, "probability_ci95");
+        bt_json_rounded(page->json, NULL, g->ci95.least, 6);
+        bt_json_rounded(page->json, NULL, g->ci95.greatest, 6);
+        bt_json_end_array(page->json);
+        bt_json_integer(page->json, "run", page->landings.run[g->typical]);
+        bt_json_end_object(page->json);
+    }
+    bt_json_end_array(page->json);
 }

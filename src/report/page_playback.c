@@ -30,7 +30,7 @@ static void add(picks* p, int landing, const char* name) {
 }
 
 /// The landing of an outcome whose margin is nearest to a value; -1 when there is none.
-static int nearest(const bt_page_landings* l, bt_outcome outcome, double margin_m) {
+static int nearest(const bt_landings* l, bt_outcome outcome, double margin_m) {
     int best = -1;
     for (int i = 0; i < l->count; ++i)
         if (l->outcome[i] == outcome && isfinite(l->margin_m[i]) &&
@@ -45,7 +45,7 @@ static int by_value(const void* a, const void* b) {
 }
 
 /// The landing of a mode whose margin is in the middle of that mode's; -1 when there is none.
-static int middle_of(const bt_page_landings* l, bt_mode mode, double* scratch) {
+static int middle_of(const bt_landings* l, bt_mode mode, double* scratch) {
     int count = 0;
     for (int i = 0; i < l->count; ++i)
         if (l->mode[i] == mode && isfinite(l->margin_m[i]))
@@ -60,11 +60,11 @@ static int middle_of(const bt_page_landings* l, bt_mode mode, double* scratch) {
 }
 
 static void choose(const bt_page* page, picks* p, double* scratch) {
-    const bt_page_landings* l = &page->landings;
-    for (int i = 0; i < page->group_count && i < GROUPS; ++i) {
+    const bt_landings* l = &page->landings;
+    for (int i = 0; i < page->atlas.count && i < GROUPS; ++i) {
         char name[96];
         snprintf(name, sizeof name, "typical miss %d", i + 1);
-        add(p, page->group[i].typical, name);
+        add(p, page->atlas.group[i].typical, name);
     }
     const int miss = nearest(l, BT_MISSED, 0), caught = nearest(l, BT_ENGAGED, 0);
     if (miss >= 0)
@@ -82,7 +82,7 @@ static void choose(const bt_page* page, picks* p, double* scratch) {
 static bt_status run_playback(const bt_page* page, bt_lander* lander, bt_model_params* model,
                               const pick* chosen, bt_playback* playback,
                               bt_landing_result* result) {
-    const bt_page_landings* l = &page->landings;
+    const bt_landings* l = &page->landings;
     if (chosen->landing < 0)
         return bt_landing_try(lander, model, result, bt_playback_observe, playback);
     const double* x = l->x + (size_t)chosen->landing * (size_t)l->axes.count;

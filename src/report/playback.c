@@ -3,6 +3,7 @@
 #include "report/packed.h"
 #include "report/playback_geometry.h"
 #include "report/playback_record.h"
+#include "report/timeline.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -345,6 +346,23 @@ static void put_forces(bt_json* json, const bt_playback* p) {
     bt_json_end_array(json);
 }
 
+/// What happened up to the end of the record.
+static void put_events(bt_json* json, const bt_playback* p, const bt_model_params* model,
+                       const bt_landing_result* result) {
+    bt_timeline timeline;
+    bt_timeline_make(p, model, result, &timeline);
+    bt_json_begin_array(json, "events");
+    for (int i = 0; i < timeline.count; ++i) {
+        if (timeline.at[i].time_s > p->time_s[p->count - 1])
+            continue;
+        bt_json_begin_object(json, NULL);
+        bt_json_rounded(json, "time_s", timeline.at[i].time_s, 7);
+        bt_json_string(json, "what", timeline.at[i].what);
+        bt_json_end_object(json);
+    }
+    bt_json_end_array(json);
+}
+
 static bt_status put_geometry(bt_json* json, const bt_playback* p, const bt_model_params* model,
                               bt_diag* diag) {
     bt_airframe airframe;
@@ -390,14 +408,13 @@ bt_status bt_playback_write(bt_json* json, const bt_playback* p, int64_t run, co
         return BT_ERR_MEMORY;
     if (p->count == 0)
         return BT_OK;
-    const bt_playback_rows rows = {p->count, p->time_s, p->curve};
     bt_json_begin_object(json, NULL);
     bt_json_integer(json, "run", run);
     bt_json_string(json, "name", name);
     bt_json_string(json, "outcome", bt_outcome_name(result->outcome));
     bt_json_string(json, "mode", bt_mode_name(result->mode));
     bt_json_rounded(json, "margin_m", result->margin_m, 9);
-    bt_playback_write_events(json, &rows, result);
+    put_events(json, p, model, result);
     BT_TRY(put_motion(json, p));
     BT_TRY(put_geometry(json, p, model, diag));
     bt_json_end_object(json);

@@ -3,7 +3,23 @@
 #define BT_REPORT_PLAYBACK_RECORD_H
 
 #include "report/playback.h"
-#include "report/playback_events.h"
+
+/// Columns of a recorded row.
+enum {
+    BT_CURVE_LIP, ///< x, y, z
+    BT_CURVE_HOOK_HEIGHT = 3,
+    BT_CURVE_HOOK_DECK,
+    BT_CURVE_CABLE_HEIGHT, ///< height of its centre, in the hook's plane
+    BT_CURVE_CABLE_AHEAD,  ///< distance ahead of the lip, there
+    BT_CURVE_CABLE_TENSION,
+    BT_CURVE_CABLE_HOOK,      ///< x, y, z: force of the cable on the hook
+    BT_CURVE_TYRE = 11,       ///< nose, left, right
+    BT_CURVE_TYRE_CABLE = 14, ///< nose, left, right
+    BT_CURVE_STRUT = 17,      ///< nose, left, right
+    BT_CURVE_WHEEL_X = 20,    ///< nose, left, right
+    BT_CURVE_WHEEL_Y = 23,    ///< nose, left, right
+    BT_CURVE_COUNT = 26
+};
 
 enum { BT_PLAYBACK_Q = 7 * BT_BODY_COUNT };
 

@@ -116,9 +116,10 @@ static void titles_are_text(void** state) {
     assert_int_equal(
         bt_lander_run(lander, &study.model, &result, bt_playback_observe, playback, NULL), BT_OK);
     const bt_page_subject subject = {&study, "study.yaml", "", NULL};
+    const bt_page_landing_of of = {-1, "landing", &study.model, &result};
     toy_path(path, directory, "x.html");
-    assert_int_equal(bt_page_landing(&subject, path, playback, &result, NULL), BT_OK);
-    assert_int_equal(bt_page_landing(&subject, path, playback, &result, NULL), BT_OK); // again
+    assert_int_equal(bt_page_landing(&subject, path, playback, &of, NULL), BT_OK);
+    assert_int_equal(bt_page_landing(&subject, path, playback, &of, NULL), BT_OK); // again
     size_t size = 0;
     assert_int_equal(bt_file_read(path, &text, &size, NULL), BT_OK);
     assert_in_range(size - before.size - after.size, 50000, 600000);
@@ -127,7 +128,7 @@ static void titles_are_text(void** state) {
     free(text);
 
     assert_int_equal(bt_file_write(path, "<p>mine", 7, NULL), BT_OK);
-    assert_int_equal(bt_page_landing(&subject, path, playback, &result, NULL), BT_ERR_IO);
+    assert_int_equal(bt_page_landing(&subject, path, playback, &of, NULL), BT_ERR_IO);
     assert_int_equal(bt_file_read(path, &text, NULL, NULL), BT_OK);
     assert_string_equal(text, "<p>mine");
     free(text);
