@@ -13,7 +13,7 @@ __attribute__((format(printf, 3, 4))) static void note(bt_timeline* list, double
     if (list->count == BT_TIMELINE_MOST || !isfinite(time_s))
         return;
     va_list args;
-    bt_event* e = &list->at[list->count++];
+    bt_moment* e = &list->at[list->count++];
     e->time_s = time_s;
     va_start(args, format);
     vsnprintf(e->what, sizeof e->what, format, args);
@@ -135,7 +135,7 @@ static void note_passage(bt_timeline* list, const bt_playback* rows) {
 }
 
 static int by_time(const void* a, const void* b) {
-    const double x = ((const bt_event*)a)->time_s, y = ((const bt_event*)b)->time_s;
+    const double x = ((const bt_moment*)a)->time_s, y = ((const bt_moment*)b)->time_s;
     return (x > y) - (x < y);
 }
 

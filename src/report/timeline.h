@@ -7,14 +7,14 @@
 
 enum { BT_TIMELINE_MOST = 40 };
 
-typedef struct bt_event {
+typedef struct bt_moment {
     double time_s; ///< since the first contact with the deck
     char what[96];
-} bt_event;
+} bt_moment;
 
 typedef struct bt_timeline {
     int count;
-    bt_event at[BT_TIMELINE_MOST]; ///< in the order of time
+    bt_moment at[BT_TIMELINE_MOST]; ///< in the order of time
 } bt_timeline;
 
 /// Touchdown, hook on the deck, tops of its bounces, wheels on the cable, the wave that these send

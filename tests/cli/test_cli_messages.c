@@ -44,6 +44,9 @@ static void every_failure_says_why(void** state) {
         {"sensitivity " REFERENCE " --samples 2 --keys deck.cable.mass "
          "--set aircraft.mass='300 kg'",
          4},
+        {"why " REFERENCE " 0 -o %/none", 5},
+        {"atlas " REFERENCE " -o %/none", 5},
+        {"compare " REFERENCE " no/such.yaml", 5},
         {"land", 2},
         {"nothing", 2},
     };
