@@ -77,7 +77,7 @@ static void a_study_is_compared_with_another(void** state) {
     char command[8192];
     snprintf(command, sizeof command,
              "cp -r studies/reference '%s/other' && "
-             "sed -i 's/height: 97 mm/height: 5 mm/' '%s/other/deck.yaml'",
+             "sed -i 's/height: 97 mm/height: 20 mm/' '%s/other/deck.yaml'",
              f->directory, f->directory);
     assert_int_equal(system(command), 0);
     assert_int_equal(
