@@ -98,8 +98,9 @@ static bt_status ask(bt_chain* chain, int64_t run) {
 static bt_status open(const bt_command* command, bool ledger, bt_chain* chain) {
     if (ledger)
         return bt_chain_open(command, BT_LEDGER_READ, chain);
-    *chain = (bt_chain){
-        .command = command, .directory = {.lock = {.lock = -1}}, .diag = bt_stderr_diag()};
+    *chain = (bt_chain){.command = command};
+    chain->directory.lock.lock = -1;
+    chain->diag = bt_stderr_diag();
     return bt_command_study(command, &chain->study);
 }
 
