@@ -7,7 +7,7 @@
 #include <string.h>
 
 /// Points per component, and steps, of the search for the shares.
-enum { POINTS = 256, STEPS = 60, VARIABLE_SHARES = 0x30000 };
+enum { POINTS = 256, STEPS = 100, VARIABLE_SHARES = 0x30000 };
 static const double least_share = 0.1; ///< of the equal one
 
 /// Scores of a point by the variables' own distributions.
@@ -94,23 +94,28 @@ static void place(const bt_mixture* m, uint64_t seed, search* s) {
         }
 }
 
-/// One multiplicative step: share_k times the root of -d/d share_k of sum_c E_c[p_c / q].
+/// One multiplicative step: share_k times the cube root of -d/d share_k of sum_c E_c[p_c / q]^2.
 static void step(const search* s, double* share) {
     const int n = s->components;
     double gain[BT_COMPONENT_MAX] = {0}, sum = 0;
-    for (int c = 0; c < n; ++c)
+    for (int c = 0; c < n; ++c) {
+        double own[BT_COMPONENT_MAX] = {0}, factor = 0;
         for (int i = 0; i < s->points; ++i) {
             const double* p = s->density + (size_t)(c * s->points + i) * (size_t)n;
             double q = 0;
             for (int k = 0; k < n; ++k)
                 q += share[k] * p[k];
+            factor += p[c] / q / s->points;
             for (int k = 0; k < n; ++k)
-                gain[k] += p[c] / q * (p[k] / q);
+                own[k] += p[c] / q * (p[k] / q) / s->points;
         }
+        for (int k = 0; k < n; ++k)
+            gain[k] += factor * own[k];
+    }
     for (int k = 0; k < n; ++k)
-        sum += share[k] *= sqrt(gain[k]);
+        sum += share[k] *= cbrt(gain[k]);
     for (int k = 0; k < n; ++k)
-        share[k] = (1 - least_share) * share[k] / sum + least_share / n;
+        share[k] /= sum;
 }
 
 static bt_status choose_shares(bt_mixture* m, uint64_t seed) {
@@ -123,6 +128,8 @@ static bt_status choose_shares(bt_mixture* m, uint64_t seed) {
     place(m, seed, &s);
     for (int i = 0; i < STEPS; ++i)
         step(&s, m->share);
+    for (int c = 0; c < n; ++c)
+        m->share[c] = (1 - least_share) * m->share[c] + least_share / n;
     free(s.density);
     return BT_OK;
 }

@@ -21,10 +21,10 @@ typedef struct bt_mixture {
     bt_copula copula;                     ///< of the variables, the same in every component
 } bt_mixture;
 
-/// The mixture of a study's conditions. The shares minimise the mean over the conditions of the
-/// factor by which weighing raises a variance, E_c[p_c / q] (a convex problem, solved by
-/// multiplicative steps on points keyed by the study's seed); no share is below a tenth of the
-/// equal one.
+/// The mixture of a study's conditions. The shares minimise the sum over the conditions of the
+/// square of the factor by which weighing raises a variance, E_c[p_c / q] (the square, so that no
+/// condition is left behind; a convex problem, solved by multiplicative steps on points keyed by
+/// the study's seed); no share is below a tenth of the equal one.
 ///
 /// BT_ERR_INPUT (no random input; conditions whose other inputs are frozen have no density; said in
 /// diag); BT_ERR_MEMORY. On BT_OK the caller frees *made.

@@ -152,6 +152,7 @@ typedef struct drawing {
     int candidates;
     double* x;     ///< [candidates * dims]
     float* margin; ///< [candidates] decision values
+    double* need;  ///< [candidates] see need_of
 } drawing;
 
 /// Point i of the mixture, keyed by (seed, i + offset, kind).
@@ -165,6 +166,17 @@ static void draw_point(const drawing* d, uint64_t run, uint32_t kind, double* x)
     bt_mixture_point(d->mixture, component, u, x);
 }
 
+/// What an error at a point costs all conditions together: the root of sum_c (p_c / q)^2, by which
+/// its share in the variances goes. At least 1 / sqrt(components), at most the sum of the 1 /
+/// share.
+static double need_of(const bt_mixture* m, const double* x) {
+    double log_p[BT_COMPONENT_MAX], sum = 0;
+    const double log_q = bt_mixture_log_density(m, x, log_p);
+    for (int c = 0; c < m->components; ++c)
+        sum += exp(2 * (log_p[c] - log_q));
+    return sqrt(sum);
+}
+
 static bt_status draw_candidates(void* user, int task, int worker) {
     (void)worker;
     const drawing* d = user;
@@ -172,9 +184,11 @@ static bt_status draw_candidates(void* user, int task, int worker) {
     int8_t label[BATCH];
     const int begin = task * BATCH,
               n = d->candidates - begin < BATCH ? d->candidates - begin : BATCH;
-    for (int i = begin; i < begin + n; ++i)
-        draw_point(d, (uint64_t)d->begin << 32 | (uint64_t)i, VARIABLE_CANDIDATE,
-                   d->x + (size_t)i * (size_t)dims);
+    for (int i = begin; i < begin + n; ++i) {
+        double* x = d->x + (size_t)i * (size_t)dims;
+        draw_point(d, (uint64_t)d->begin << 32 | (uint64_t)i, VARIABLE_CANDIDATE, x);
+        d->need[i] = need_of(d->mixture, x);
+    }
     predict(d->rounds, d->predictor, d->x + (size_t)begin * (size_t)dims, dims, n, label,
             d->margin + begin);
     return BT_OK;
@@ -208,15 +222,20 @@ static double expected_error(const bt_hyperparameters* chosen) {
     return (chosen->cv_count - chosen->cv_correct + 0.5) / (chosen->cv_count + 1.0);
 }
 
-/// Picks m candidates with probabilities in proportion to s, by equal steps through their running
-/// sum from a keyed start.
+/// How much a landing at candidate i is worth.
+static double wish(const drawing* d, int i, double width) {
+    return unsureness((double)d->margin[i], width) * d->need[i];
+}
+
+/// Picks m candidates with probabilities in proportion to that, by equal steps through their
+/// running sum from a keyed start.
 static void pick(const drawing* d, double width, double sum, int m, int* picked) {
     const double step = sum / m;
     double next = step * bt_rng_uniform(d->rounds->seed, (uint64_t)d->begin, VARIABLE_START);
     double running = 0;
     int count = 0;
     for (int i = 0; i < d->candidates && count < m; ++i) {
-        running += unsureness((double)d->margin[i], width);
+        running += wish(d, i, width);
         while (count < m && running > next) {
             picked[count++] = i;
             next += step;
@@ -232,7 +251,7 @@ static bt_status fill(const drawing* d, int n, double unsure, double* x, double*
     const double error = expected_error(&d->rounds->chosen);
     BT_TRY(width_of(d, fmin(0.25, fmax(0.02, 2 * error)), &width));
     for (int i = 0; i < d->candidates; ++i)
-        sum += unsureness((double)d->margin[i], width);
+        sum += wish(d, i, width);
     const int m = (int)floor(unsure * n);
     int* picked = malloc(((size_t)m + 1) * sizeof *picked);
     if (!picked)
@@ -251,7 +270,9 @@ static bt_status fill(const drawing* d, int n, double unsure, double* x, double*
         predict(d->rounds, d->predictor, point, (int)dims, 1, &label, &f);
         const double share = (double)m / n;
         log_density[i] = bt_mixture_log_density(d->mixture, point, NULL) +
-                         log1p(share * (unsureness((double)f, width) * d->candidates / sum - 1));
+                         log1p(share * (unsureness((double)f, width) * need_of(d->mixture, point) *
+                                            d->candidates / sum -
+                                        1));
     }
     free(picked);
     return BT_OK;
@@ -269,14 +290,16 @@ bt_status bt_rounds_draw(const bt_rounds* rounds, const bt_mixture* mixture,
                  .candidates = rounds->candidates > 0 ? rounds->candidates : CANDIDATES};
     d.x = malloc((size_t)d.candidates * (size_t)mixture->dims * sizeof *d.x);
     d.margin = malloc((size_t)d.candidates * sizeof *d.margin);
+    d.need = malloc((size_t)d.candidates * sizeof *d.need);
     bt_status status = BT_ERR_MEMORY;
-    if (d.x && d.margin)
+    if (d.x && d.margin && d.need)
         status =
             bt_tasks_run(rounds->threads, (d.candidates + BATCH - 1) / BATCH, draw_candidates, &d);
     if (status == BT_OK)
         status = fill(&d, n, classifier->constant ? 0 : unsure, x, log_density);
     free(d.x);
     free(d.margin);
+    free(d.need);
     bt_predictor_destroy(predictor);
     return status;
 }

@@ -43,8 +43,10 @@ BT_CHECKED bt_status bt_rounds_predict(const bt_rounds* rounds, const bt_surroga
                                        const double* x, int n, int8_t* engaged, float* decision);
 
 /// Draws the points of a round: of n runs from `begin` on, the share `unsure` in proportion to
-/// q(x) s(x), s = 1 / (1 + (f(x) / tau)^4), where f is the classifier of the round and |f| <= tau
-/// has twice the mass of the errors that cross-validation expects; the others from the mixture q.
+/// q(x) s(x), s = sqrt(sum_c (p_c / q)^2) / (1 + (f / tau)^4), where f is the classifier of the
+/// round and |f| <= tau has twice the mass of the errors that cross-validation expects (the best
+/// density for the sum of all conditions' variances, were the chance of an error the square of the
+/// second factor); the others from the mixture q.
 /// They come mixed in a fixed order, and each has the density of both together,
 ///
 ///   log(q(x) ((1 - unsure) + unsure s(x) / mean_q(s))).

@@ -47,8 +47,8 @@ static void equal_conditions_share_their_landings(void** state) {
     for (int c = 0; c < 5; ++c) // five times the study as it stands, and one far away
         study.conditions[study.condition_count++] = (bt_condition){0, c < 4 ? 0.0 : 20.0};
     bt_mixture* m = mixture_of(&study);
-    // minimise 5 / a + 1 / b, a + b = 1: b = 1 / (1 + sqrt 5)
-    const double best = 1 / (1 + sqrt(5)), floor_share = 0.1 / 6;
+    // minimise 5 / a^2 + 1 / b^2, a + b = 1: b = 1 / (1 + cbrt 5)
+    const double best = 1 / (1 + cbrt(5)), floor_share = 0.1 / 6;
     BT_ASSERT_NEAR(m->share[5], 0.9 * best + floor_share, 0.03, 0);
     free(m);
 }
