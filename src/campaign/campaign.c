@@ -140,25 +140,45 @@ static bool is_complete(const campaign* c) {
     return true;
 }
 
+/// Draws the points of a whole round, so that a campaign may grow.
+static bt_status draw_round(campaign* c, int64_t whole) {
+    const bt_campaign_rounds* rounds = c->options->rounds;
+    const size_t n = (size_t)(whole - c->begin),
+                 axes = (size_t)bt_design_get_axes(c->design)->count;
+    c->x = malloc(n * axes * sizeof *c->x);
+    c->log_density = malloc(n * sizeof *c->log_density);
+    if (!c->x || !c->log_density)
+        return BT_ERR_MEMORY;
+    return rounds->draw(rounds->user, c->ledger, c->begin, (int64_t)n, c->x, c->log_density,
+                        c->diag);
+}
+
+/// Asks, before a round that lacks landings, whether those before are enough.
+static bt_status ask(campaign* c, bool* enough) {
+    const bt_campaign_rounds* rounds = c->options->rounds;
+    *enough = false;
+    return rounds->enough && c->begin > 0
+               ? rounds->enough(rounds->user, c->ledger, c->begin, enough, c->diag)
+               : BT_OK;
+}
+
 /// One round after the other; the points of a round are drawn when it lacks any.
 static bt_status run_rounds(campaign* c, const bt_study* study) {
     const bt_campaign_rounds* rounds = c->options->rounds;
-    const size_t axes = (size_t)bt_design_get_axes(c->design)->count;
     bt_status status = BT_OK;
+    bool enough = false;
     for (c->begin = 0; c->begin < c->count && status == BT_OK; c->begin = c->end) {
         const int64_t whole = rounds->end(rounds->user, c->begin);
         c->end = whole < c->count ? whole : c->count;
         if (is_complete(c))
             continue;
-        if (c->begin > 0) { // a whole round is drawn, so that a campaign may grow
-            const size_t n = (size_t)(whole - c->begin);
-            c->x = malloc(n * axes * sizeof *c->x);
-            c->log_density = malloc(n * sizeof *c->log_density);
-            status = c->x && c->log_density
-                         ? rounds->draw(rounds->user, c->ledger, c->begin, (int64_t)n, c->x,
-                                        c->log_density, c->diag)
-                         : BT_ERR_MEMORY;
+        status = ask(c, &enough);
+        if (status == BT_OK && enough) {
+            c->progress->total = c->progress->done;
+            break;
         }
+        if (status == BT_OK && c->begin > 0 && rounds->draw)
+            status = draw_round(c, whole);
         if (status == BT_OK)
             status = run_round(c, study);
         free(c->x);

@@ -7,7 +7,8 @@
 #include "campaign/ledger.h"
 
 typedef struct bt_campaign_progress {
-    int64_t total;                   ///< runs of the design, or of this shard
+    int64_t total;                   ///< runs of the design, or of this shard; of the rounds run
+                                     ///< when they were enough
     int64_t before;                  ///< of them, in the ledger before this call
     int64_t done;                    ///< of them, in the ledger now
     int64_t engaged, missed, failed; ///< of done
@@ -21,7 +22,10 @@ typedef void bt_campaign_watch(void* user, const bt_campaign_progress* progress)
 typedef struct bt_campaign_rounds {
     /// The first run after a round that begins at `begin`.
     int64_t (*end)(void* user, int64_t begin);
-    /// Points and log densities of the n runs from `begin` on; all before are in the ledger.
+    /// Whether the landings before `end` are enough; NULL: all runs of the design are wanted.
+    bt_status (*enough)(void* user, bt_ledger* ledger, int64_t end, bool* yes, bt_diag* diag);
+    /// Points and log densities of the n runs from `begin` on; all before are in the ledger. NULL:
+    /// the design's own points.
     bt_status (*draw)(void* user, bt_ledger* ledger, int64_t begin, int64_t n, double* x,
                       double* log_density, bt_diag* diag);
     void* user;

@@ -65,6 +65,13 @@ static void choose_levels(bt_design* d) {
     }
 }
 
+/// A study that asks for a width may go on beyond its samples.
+static int64_t most_landings(const bt_study* study) {
+    const bool stops = study->reliability.half_width > 0 || study->reliability.cov > 0;
+    return stops && study->campaign.max_landings > 0 ? study->campaign.max_landings
+                                                     : study->campaign.samples;
+}
+
 static bt_status prepare_mixture(bt_design* d, bt_diag* diag) {
     BT_TRY(bt_mixture_create(d->study, &d->mixture, diag));
     for (int c = 0; c < d->mixture->components; ++c) {
@@ -87,7 +94,7 @@ static bt_status prepare(bt_design* d, bt_diag* diag) {
             name);
         return BT_ERR_INPUT;
     }
-    d->count = d->study->campaign.samples;
+    d->count = most_landings(d->study);
     const uint64_t seed = (uint64_t)d->study->campaign.seed;
     for (int i = 0; i < d->axes.count; ++i)
         d->shift[i] = bt_rng_bits(seed, 0, (uint32_t)(VARIABLE_SHIFT + i)) >> 12;

@@ -22,6 +22,8 @@ enum {
       "conditions: share of each round's landings where the classifier is unsure; 0: no rounds")   \
     F(COUNT, samples, _, OPTIONAL, 4096, 1, 1e9, "Sec. 5.2",                                       \
       "number of landings; the paper ran 42,000")                                                  \
+    F(COUNT, max_landings, _, OPTIONAL, 0, 0, 1e9, "",                                             \
+      "most landings when reliability.half_width or reliability.cov is asked for; 0: samples")     \
     F(COUNT, seed, _, OPTIONAL, 1, 0, 9e15, "", "key of all random numbers of the study")          \
     F(COUNT, threads, _, OPTIONAL, 0, 0, 4096, "",                                                 \
       "threads; 0 for one per core. Never changes a result")                                       \

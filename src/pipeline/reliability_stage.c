@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 /// Of sampling, checks and correction: raise it when the same inputs give another table.
-static const char algorithm[] = "reliability 3";
+static const char algorithm[] = "reliability 4";
 
 /// What the table depends on, as a text (to be freed): the surrogate, the distributions, the
 /// conditions, the settings, and the model that checks it.
@@ -21,10 +21,10 @@ static char* table_key(const bt_study* study, const bt_surrogate* surrogate) {
     fprintf(out,
             "%s: campaign %016" PRIx64 " unsure %a training %016" PRIx64
             " C %a gamma %a rho %a samples %lld high_fidelity %lld others %d "
-            "seed %lld\n",
+            "seed %lld half_width %a cov %a\n",
             algorithm, study->hash, study->campaign.unsure, surrogate->training_hash, surrogate->C,
             surrogate->gamma, surrogate->rho, (long long)p->samples,
-            (long long)p->high_fidelity_runs, p->others, (long long)p->seed);
+            (long long)p->high_fidelity_runs, p->others, (long long)p->seed, p->half_width, p->cov);
     for (int i = 0; i < study->input_count; ++i) {
         const bt_distribution* d = &study->inputs[i].distribution;
         if (study->inputs[i].random)

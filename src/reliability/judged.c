@@ -1,5 +1,7 @@
 #include "reliability/judged.h"
 
+#include "reliability/stop.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,19 +22,32 @@ bool bt_judged_possible(const bt_study* study) {
     return random > 0;
 }
 
+/// Keeps the classifier of a round that is judged, for the samples.
+static bt_status keep(const bt_study* study, bt_judged* j, bt_surrogate* s, int begin, int end,
+                      bt_diag* diag) {
+    const bt_axes* axes = bt_design_get_axes(j->design);
+    bt_surrogate* kept = &j->surrogate[j->rounds];
+    *kept = *s;
+    *s = (bt_surrogate){0};
+    bt_surrogate_name(kept, study, axes->input, axes->count);
+    memcpy(j->engaged + begin, j->said + begin, (size_t)(end - begin));
+    j->begin[j->rounds++] = begin;
+    j->begin[j->rounds] = end;
+    return bt_surrogate_classifier_create(study, kept, &j->classifier[j->rounds - 1], diag);
+}
+
 /// Trains the classifier of one round and has it judge the landings begin .. end - 1.
 static bt_status judge_round(const bt_study* study, bt_judged* j, bt_rounds* rounds, int begin,
                              int end, bt_diag* diag) {
-    const bt_axes* axes = bt_design_get_axes(j->design);
     const bt_evidence* e = j->evidence;
-    bt_surrogate* s = &j->surrogate[j->rounds];
-    BT_TRY(bt_rounds_classifier(rounds, e, begin, s, diag));
-    bt_surrogate_name(s, study, axes->input, axes->count);
-    j->begin[j->rounds++] = begin;
-    j->begin[j->rounds] = end;
-    BT_TRY(bt_surrogate_classifier_create(study, s, &j->classifier[j->rounds - 1], diag));
-    return bt_rounds_predict(rounds, s, e->x + (size_t)begin * (size_t)e->dims, end - begin,
-                             j->engaged + begin, NULL);
+    bt_surrogate s;
+    BT_TRY(bt_rounds_classifier(rounds, e, begin, &s, diag));
+    bt_status status = bt_rounds_predict(rounds, &s, e->x + (size_t)begin * (size_t)e->dims,
+                                         end - begin, j->said + begin, NULL);
+    if (status == BT_OK && begin >= bt_round_first(e->count))
+        status = keep(study, j, &s, begin, end, diag);
+    bt_surrogate_destroy(&s);
+    return status;
 }
 
 static bt_status judge(const bt_study* study, bt_judged* j, bt_diag* diag) {
@@ -43,8 +58,9 @@ static bt_status judge(const bt_study* study, bt_judged* j, bt_diag* diag) {
                         .params = &study->surrogate,
                         .seed = (uint64_t)study->campaign.seed,
                         .threads = (int)study->campaign.threads};
+    memset(j->said, -1, (size_t)count);
     memset(j->engaged, -1, (size_t)count);
-    for (int begin = bt_round_first(count); begin < count && j->rounds < BT_ROUNDS_MAX;) {
+    for (int begin = (int)bt_round_end(0); begin < count && j->rounds < BT_ROUNDS_MAX;) {
         const int64_t whole = bt_round_end(begin);
         const int end = whole < count ? (int)whole : count;
         BT_TRY(judge_round(study, j, &rounds, begin, end, diag));
@@ -62,8 +78,10 @@ bt_status bt_judged_create(const bt_study* study, const bt_evidence* evidence, b
     j->evidence = evidence;
     const bool drawn = study->campaign.design == BT_DESIGN_CONDITIONS;
     j->least = drawn ? 1 - study->campaign.unsure : 1;
+    j->tail = bt_stop_tail(study);
+    j->said = malloc((size_t)evidence->count + 1);
     j->engaged = malloc((size_t)evidence->count + 1);
-    bt_status status = j->engaged ? BT_OK : BT_ERR_MEMORY;
+    bt_status status = j->said && j->engaged ? BT_OK : BT_ERR_MEMORY;
     if (status == BT_OK)
         status = bt_design_create(study, &j->design, diag);
     if (status == BT_OK)
@@ -86,6 +104,7 @@ void bt_judged_destroy(bt_judged* judged) {
     }
     bt_design_destroy(judged->design);
     free(judged->mixture);
+    free(judged->said);
     free(judged->engaged);
     free(judged);
 }

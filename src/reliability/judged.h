@@ -14,8 +14,10 @@ typedef struct bt_judged {
     bt_design* design;
     bt_mixture* mixture;
     double least; ///< every landing was drawn with at least so many times the design's own density
-    int8_t* engaged; ///< [evidence.count] what the round's classifier said; -1: of the first round
-    int rounds;
+    double tail;  ///< of the intervals
+    int8_t* said; ///< [evidence.count] what the round's classifier said; -1: of the first round
+    int8_t* engaged; ///< [evidence.count] the same from the first round that is judged, -1 before
+    int rounds;      ///< that are judged
     int begin[BT_ROUNDS_MAX + 1]; ///< first landing of each round, and the end of the last
     bt_surrogate surrogate[BT_ROUNDS_MAX];
     bt_surrogate_classifier* classifier[BT_ROUNDS_MAX];

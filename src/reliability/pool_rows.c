@@ -22,8 +22,11 @@ bt_status bt_pool_rows_create(const bt_judged* judged, int conditions, bt_pool_r
         return BT_ERR_MEMORY;
     p->judged = judged;
     p->weight = malloc((size_t)conditions * n * sizeof *p->weight);
-    if (p->weight)
+    p->law = malloc(sizeof *p->law);
+    if (p->weight && p->law) {
+        bt_pooled_weigh(judged->mixture, judged->evidence, p->weight);
         return BT_OK;
+    }
     bt_pool_rows_destroy(p);
     *made = NULL;
     return BT_ERR_MEMORY;
@@ -33,11 +36,12 @@ void bt_pool_rows_destroy(bt_pool_rows* rows) {
     if (!rows)
         return;
     free(rows->weight);
+    free(rows->law);
     free(rows);
 }
 
-double* bt_pool_rows_weight(const bt_pool_rows* p, int component) {
-    return p->weight + (size_t)component * ((size_t)p->judged->evidence->count + 1);
+const double* bt_pool_rows_weight(const bt_pool_rows* p, int component) {
+    return p->weight + (size_t)component * (size_t)p->judged->evidence->count;
 }
 
 /// Whether the landings, and not the condition's fresh runs, give the corrected number: decided by
@@ -52,12 +56,11 @@ bt_status bt_pool_rows_fill(bt_pool_rows* p, int component, const bt_sampler* sa
     const bt_evidence* e = j->evidence;
     const int judged = judged_count(j), all = e->count;
     bt_cut* cut = &p->cut[component];
-    double* weight = bt_pool_rows_weight(p, component);
+    const double* weight = bt_pool_rows_weight(p, component);
     if (all == 0)
         return BT_OK;
-    *cut = bt_pooled_cut(j->mixture, j->design, component, judged ? judged : all, j->least,
-                         sampler->seed);
-    bt_pooled_weigh(j->mixture, e, component, cut->cap, weight);
+    bt_pooled_law(j->mixture, j->design, component, j->least, sampler->seed, p->law);
+    *cut = bt_pooled_cut(p->law, judged ? judged : all, j->tail);
     const bt_pooled plain = bt_reweighted_estimate(e, weight, cut);
     row->reweighted = plain.value;
     row->reweighted_ci95 = plain.ci95;
@@ -83,8 +86,8 @@ bt_status bt_pool_rows_fill(bt_pool_rows* p, int component, const bt_sampler* sa
 
 /// The limits of a difference of two shares of samples.
 static bt_interval apart(const bt_pool_rows* p, int to, int from) {
-    const bt_interval a = bt_clopper_pearson(p->hits[to], p->samples, 0.95),
-                      b = bt_clopper_pearson(p->hits[from], p->samples, 0.95);
+    const bt_interval a = bt_clopper_pearson(p->hits[to], p->samples, 1 - 2 * p->judged->tail),
+                      b = bt_clopper_pearson(p->hits[from], p->samples, 1 - 2 * p->judged->tail);
     const double ma = (double)p->hits[to] / (double)p->samples,
                  mb = (double)p->hits[from] / (double)p->samples;
     return (bt_interval){ma - mb - hypot(ma - a.least, b.greatest - mb),
@@ -109,6 +112,41 @@ void bt_pool_rows_differ(const bt_pool_rows* p, const bt_study* study,
         result->difference[result->difference_count++] =
             (bt_reliability_difference){from, to, d.value, d.ci95};
     }
+}
+
+/* ---- widths ---- */
+
+enum { WIDTHS_FROM = 256 }; // landings: below, no interval says anything
+
+/// The last half-widths, as the rows have them.
+static void close_curve(const bt_reliability_result* r, bt_width* last) {
+    double half[BT_CONDITION_MAX];
+    for (int c = 0; c < r->condition_count; ++c)
+        half[c] = bt_interval_half(&r->condition[c].corrected_ci95);
+    *last = bt_width_over(bt_interval_half(&r->overall.corrected_ci95), half, r->condition_count,
+                          last->landings, last->cov);
+}
+
+bt_status bt_pool_rows_converge(const bt_pool_rows* p, const bt_study* study,
+                                bt_reliability_result* result) {
+    const bt_judged* j = p->judged;
+    const int count = j->evidence->count;
+    bt_widths widths;
+    if (!judged_count(j) || !result->overall.pooled)
+        return BT_OK;
+    BT_TRY(bt_widths_create(study, j->mixture, j->design, j->least, &widths));
+    int n = WIDTHS_FROM < count ? WIDTHS_FROM : count;
+    while (result->width_count < BT_ROUNDS_MAX) {
+        result->width[result->width_count++] =
+            bt_width_after(&widths, j->evidence, j->said, p->weight, n);
+        if (n == count)
+            break;
+        const int64_t end = bt_round_end(n);
+        n = end < count ? (int)end : count;
+    }
+    close_curve(result, &result->width[result->width_count - 1]);
+    bt_widths_destroy(&widths);
+    return BT_OK;
 }
 
 /* ---- what the reader must know ---- */

@@ -7,7 +7,8 @@
 /// Weights and samples of every condition, kept for the differences.
 typedef struct bt_pool_rows {
     const bt_judged* judged;
-    double* weight; ///< [components * (count + 1)]
+    double* weight;     ///< [components * count], not cut
+    bt_weight_law* law; ///< of the row in work
     bt_cut cut[BT_COMPONENT_MAX];
     int64_t hits[BT_COMPONENT_MAX], samples;
 } bt_pool_rows;
@@ -17,8 +18,8 @@ BT_CHECKED bt_status bt_pool_rows_create(const bt_judged* judged, int conditions
                                          bt_pool_rows** made);
 void bt_pool_rows_destroy(bt_pool_rows* rows);
 
-/// [landings of the evidence] the weights of a component, once its row is filled.
-double* bt_pool_rows_weight(const bt_pool_rows* rows, int component);
+/// [landings of the evidence] the weights of a component, not cut.
+const double* bt_pool_rows_weight(const bt_pool_rows* rows, int component);
 
 /// Fills the pooled numbers of a row: the reweighted ones, and the corrected ones unless the
 /// condition lies beyond the design and has fresh runs of its own. Component 0 is the study as it
@@ -29,6 +30,10 @@ BT_CHECKED bt_status bt_pool_rows_fill(bt_pool_rows* rows, int component, const 
 /// The differences between neighbouring conditions of one input.
 void bt_pool_rows_differ(const bt_pool_rows* rows, const bt_study* study,
                          bt_reliability_result* result);
+
+/// Fills the half-widths after every round; those after the last are the rows' own. BT_ERR_MEMORY.
+BT_CHECKED bt_status bt_pool_rows_converge(const bt_pool_rows* rows, const bt_study* study,
+                                           bt_reliability_result* result);
 
 /// Writes down what the reader of the table must know.
 void bt_reliability_note(bt_reliability_result* result, const char* text);

@@ -5,10 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double LEVEL = 0.95, TAIL = 0.025;
-static const double NONE_SEEN = 3.688879454113936; ///< -log 0.025: 97.5 % limit of no event
-
-enum { CUT_POINTS = 16384, CUT_STEPS = 48, VARIABLE_CUT = 0x70000 };
+enum { CUT_STEPS = 48, VARIABLE_CUT = 0x70000 };
 
 static double square(double x) {
     return x * x;
@@ -16,12 +13,12 @@ static double square(double x) {
 
 /* ---- weights ---- */
 
-void bt_pooled_weigh(const bt_mixture* mixture, const bt_evidence* e, int component, double cap,
-                     double* weight) {
+void bt_pooled_weigh(const bt_mixture* mixture, const bt_evidence* e, double* weight) {
     double log_p[BT_COMPONENT_MAX];
     for (int i = 0; i < e->count; ++i) {
         bt_mixture_log_density(mixture, e->x + (size_t)i * (size_t)e->dims, log_p);
-        weight[i] = fmin(exp(log_p[component] - e->log_density[i]), cap);
+        for (int c = 0; c < mixture->components; ++c)
+            weight[(size_t)c * (size_t)e->count + (size_t)i] = exp(log_p[c] - e->log_density[i]);
     }
 }
 
@@ -41,37 +38,44 @@ static double mass_beyond(const double* sorted, int n, double cap) {
     return sum / n + 2 * sqrt(squares) / n;
 }
 
-bt_cut bt_pooled_cut(const bt_mixture* mixture, const bt_design* design, int component, int n,
-                     double least, uint64_t seed) {
+void bt_pooled_law(const bt_mixture* mixture, const bt_design* design, int component, double least,
+                   uint64_t seed, bt_weight_law* law) {
     const bool mixed = !design || bt_design_mixture(design);
-    // the bound that needs no points: weights of a mixture end at the inverse of the share
-    bt_cut best = {1 / (least * mixture->share[component]), mixed ? 0 : 1};
-    double* weight = malloc(CUT_POINTS * sizeof *weight);
-    if (!weight)
-        return best;
+    // weights of a mixture end at the inverse of the share
+    law->bound = (bt_cut){.cap = 1 / (least * mixture->share[component]), .cut = mixed ? 0 : 1};
     double u[BT_INPUT_MAX], x[BT_INPUT_MAX], log_p[BT_COMPONENT_MAX];
-    for (int i = 0; i < CUT_POINTS; ++i) {
+    for (int i = 0; i < BT_LAW_POINTS; ++i) {
         for (int k = 0; k < mixture->dims; ++k)
             u[k] = bt_rng_uniform(seed, (uint64_t)i, (uint32_t)(VARIABLE_CUT + k));
         bt_mixture_point(mixture, component, u, x);
         double log_q = bt_mixture_log_density(mixture, x, log_p);
         if (!mixed)
             log_q = bt_design_log_density(design, x);
-        weight[i] = exp(log_p[component] - log_q) / least;
+        law->weight[i] = exp(log_p[component] - log_q) / least;
     }
-    qsort(weight, CUT_POINTS, sizeof *weight, compare_doubles);
-    double bound = NONE_SEEN * best.cap / n + best.cut;
+    qsort(law->weight, BT_LAW_POINTS, sizeof *law->weight, compare_doubles);
+}
+
+/// -log tail: the limit of a count of none.
+static double none_seen(double tail) {
+    return -log(tail);
+}
+
+bt_cut bt_pooled_cut(const bt_weight_law* law, int n, double tail) {
+    bt_cut best = law->bound;
+    double bound = none_seen(tail) * best.cap / n + best.cut;
     for (int i = 0; i < CUT_STEPS; ++i) {
-        if (isinf(weight[CUT_POINTS - 1 - (CUT_POINTS / 8 >> i / 4) * (8 - i % 4) / 8]))
+        const double cap =
+            law->weight[BT_LAW_POINTS - 1 - (BT_LAW_POINTS / 8 >> i / 4) * (8 - i % 4) / 8];
+        if (isinf(cap))
             continue;
-        const double cap = weight[CUT_POINTS - 1 - (CUT_POINTS / 8 >> i / 4) * (8 - i % 4) / 8];
-        const double cut = mass_beyond(weight, CUT_POINTS, cap);
-        if (NONE_SEEN * cap / n + cut < bound) {
-            bound = NONE_SEEN * cap / n + cut;
-            best = (bt_cut){cap, cut};
+        const double cut = mass_beyond(law->weight, BT_LAW_POINTS, cap);
+        if (none_seen(tail) * cap / n + cut < bound) {
+            bound = none_seen(tail) * cap / n + cut;
+            best = (bt_cut){.cap = cap, .cut = cut};
         }
     }
-    free(weight);
+    best.tail = tail;
     return best;
 }
 
@@ -89,6 +93,7 @@ typedef struct parts {
     bt_weighted_count up_most, down_most; ///< failed landings as events
     double below, above;                  ///< distances to the limits of the value
     double cut_up, cut_down;              ///< masses that were cut off
+    double tail;
 } parts;
 
 /// Half-widths below and above, with the greatest weights given.
@@ -97,10 +102,10 @@ static void widths(const parts* p, double greatest_up, double greatest_down, dou
     bt_weighted_count up = p->up_most, down = p->down_most;
     up.greatest = greatest_up;
     down.greatest = greatest_down;
-    const double more_down = bt_weighted_upper(&down, TAIL) - p->down.sum,
-                 less_down = p->down.sum - bt_weighted_lower(&p->down, TAIL),
-                 more_up = bt_weighted_upper(&up, TAIL) - p->up.sum,
-                 less_up = p->up.sum - bt_weighted_lower(&p->up, TAIL);
+    const double more_down = bt_weighted_upper(&down, p->tail) - p->down.sum,
+                 less_down = p->down.sum - bt_weighted_lower(&p->down, p->tail),
+                 more_up = bt_weighted_upper(&up, p->tail) - p->up.sum,
+                 less_up = p->up.sum - bt_weighted_lower(&p->up, p->tail);
     *below = sqrt(square(more_down) + square(less_up) + square(p->below));
     *above = sqrt(square(more_up) + square(less_down) + square(p->above));
 }
@@ -117,11 +122,12 @@ static void conclude(const parts* p, double value, double least, double greatest
     out->unseen = fmax(0, 0.5 * (out->ci95.greatest - out->ci95.least) - out->sampling);
 }
 
-static double effective_number(const bt_evidence* e, const double* weight) {
+static double effective_number(const bt_evidence* e, const double* weight, double cap) {
     double sum = 0, squares = 0;
     for (int i = 0; i < e->count; ++i) {
-        sum += weight[i];
-        squares += weight[i] * weight[i];
+        const double w = fmin(weight[i], cap);
+        sum += w;
+        squares += w * w;
     }
     return squares > 0 ? sum * sum / squares : 0;
 }
@@ -151,21 +157,23 @@ static int count_judged(const bt_evidence* e, const int8_t* judged) {
 
 bt_pooled bt_pooled_estimate(const bt_evidence* e, const int8_t* judged, const double* weight,
                              const bt_cut* cut, int64_t hits, int64_t samples) {
-    bt_pooled out = {.judged = count_judged(e, judged), .effective = effective_number(e, weight)};
+    bt_pooled out = {.judged = count_judged(e, judged),
+                     .effective = effective_number(e, weight, cut->cap)};
     if (out.judged == 0 || samples <= 0)
         return (bt_pooled){.value = NAN, .ci95 = {0, 1}, .sampling = NAN, .unseen = NAN};
-    parts p = {.cut_up = cut->cut, .cut_down = cut->cut};
+    parts p = {.cut_up = cut->cut, .cut_down = cut->cut, .tail = cut->tail};
     for (int i = 0; i < e->count; ++i) {
         if (judged[i] < 0)
             continue;
-        count_landing(&p, e->label[i], judged[i], weight[i] / out.judged);
+        const double v = fmin(weight[i], cut->cap) / out.judged;
+        count_landing(&p, e->label[i], judged[i], v);
         if (e->label[i] >= 0 && e->label[i] != judged[i]) {
             ++out.disagreed;
-            out.disagreement += weight[i] / out.judged;
+            out.disagreement += v;
         }
     }
     const double mean = (double)hits / (double)samples;
-    const bt_interval limits = bt_clopper_pearson(hits, samples, LEVEL);
+    const bt_interval limits = bt_clopper_pearson(hits, samples, 1 - 2 * cut->tail);
     p.up.greatest = p.down.greatest = cut->cap / out.judged;
     p.below = mean - limits.least;
     p.above = limits.greatest - mean;
@@ -174,27 +182,29 @@ bt_pooled bt_pooled_estimate(const bt_evidence* e, const int8_t* judged, const d
 }
 
 bt_pooled bt_reweighted_estimate(const bt_evidence* e, const double* weight, const bt_cut* cut) {
-    bt_pooled out = {.judged = e->count, .effective = effective_number(e, weight)};
+    bt_pooled out = {.judged = e->count, .effective = effective_number(e, weight, cut->cap)};
     if (e->count == 0)
         return (bt_pooled){.value = NAN, .ci95 = {0, 1}, .sampling = NAN, .unseen = NAN};
-    parts p = {.cut_down = cut->cut};
+    parts p = {.cut_down = cut->cut, .tail = cut->tail};
+    const double level = 1 - 2 * cut->tail;
     int64_t engaged = 0, done = 0;
     double failed = 0;
     bool equal = cut->cut == 0;
     for (int i = 0; i < e->count; ++i) {
-        count_landing(&p, e->label[i], 1, weight[i] / e->count);
+        const double v = fmin(weight[i], cut->cap) / e->count;
+        count_landing(&p, e->label[i], 1, v);
         equal = equal && weight[i] == 1;
         engaged += e->label[i] == 1;
         done += e->label[i] >= 0;
-        failed += e->label[i] < 0 ? weight[i] / e->count : 0;
+        failed += e->label[i] < 0 ? v : 0;
     }
     p.down.greatest = cut->cap / e->count;
     conclude(&p, 1 - p.down.sum / fmax(1 - failed, 1e-300), 0, 1, &out);
     out.disagreement = p.down.sum;
     if (equal) {
         out.value = done > 0 ? (double)engaged / (double)done : NAN;
-        out.ci95.least = bt_clopper_pearson(engaged, e->count, LEVEL).least;
-        out.ci95.greatest = bt_clopper_pearson(engaged + e->count - done, e->count, LEVEL).greatest;
+        out.ci95.least = bt_clopper_pearson(engaged, e->count, level).least;
+        out.ci95.greatest = bt_clopper_pearson(engaged + e->count - done, e->count, level).greatest;
         out.sampling = 0.5 * (out.ci95.greatest - out.ci95.least);
         out.unseen = 0;
     }
@@ -207,10 +217,14 @@ bt_pooled bt_pooled_difference(const bt_evidence* e, const int8_t* judged, const
     bt_pooled out = {.judged = count_judged(e, judged)};
     if (out.judged == 0)
         return (bt_pooled){.value = NAN, .ci95 = {-1, 1}, .sampling = NAN, .unseen = NAN};
-    parts p = {.cut_up = cut_a->cut + cut_b->cut, .cut_down = cut_a->cut + cut_b->cut};
+    parts p = {.cut_up = cut_a->cut + cut_b->cut,
+               .cut_down = cut_a->cut + cut_b->cut,
+               .tail = cut_a->tail};
     for (int i = 0; i < e->count; ++i)
         if (judged[i] >= 0)
-            count_landing(&p, e->label[i], judged[i], (weight_a[i] - weight_b[i]) / out.judged);
+            count_landing(&p, e->label[i], judged[i],
+                          (fmin(weight_a[i], cut_a->cap) - fmin(weight_b[i], cut_b->cap)) /
+                              out.judged);
     p.up.greatest = p.down.greatest = fmax(cut_a->cap, cut_b->cap) / out.judged;
     p.below = means - apart.least;
     p.above = apart.greatest - means;

@@ -13,36 +13,48 @@
 #include "statistics/weighted.h"
 
 /// Weights of one condition: cut at `cap`, where what is cut off has the mass `cut` of the
-/// condition; the cap makes the bound for errors never seen least.
+/// condition. And the tail of its intervals: the truth may lie beyond either end with this
+/// probability.
 typedef struct bt_cut {
-    double cap, cut;
+    double cap, cut, tail;
 } bt_cut;
+
+enum { BT_LAW_POINTS = 16384 };
+
+/// How the weights of a condition are distributed under the condition itself.
+typedef struct bt_weight_law {
+    bt_cut bound;                 ///< what is known without points: greatest weight, mass beyond
+    double weight[BT_LAW_POINTS]; ///< of points of the condition, ascending; INFINITY: the design
+                                  ///< has no density there
+} bt_weight_law;
 
 /// What the pool says about one condition. Widths are distances, not negative.
 typedef struct bt_pooled {
-    double value;          ///< R_c
-    bt_interval ci95;      ///< sampling, the classifier's error, failed landings either way, and
-                           ///< errors of a kind never seen
-    double sampling;       ///< half the width that what was seen gives
-    double unseen;         ///< what the bound for the unseen adds to half the width
-    double effective;      ///< landings of the condition itself that would weigh as much
+    double value;     ///< R_c
+    bt_interval ci95; ///< at 1 - 2 tail: sampling, the classifier's error, failed landings either
+                      ///< way, and errors of a kind never seen
+    double sampling;  ///< half the width that what was seen gives
+    double unseen;    ///< what the bound for the unseen adds to half the width
+    double effective; ///< landings of the condition itself that would weigh as much
     double disagreement;   ///< share of landings that the classifiers judged wrongly, weighted
     int judged, disagreed; ///< landings judged, wrongly judged
 } bt_pooled;
 
-/// The weights p_c / q of n landings, cut.
-void bt_pooled_weigh(const bt_mixture* mixture, const bt_evidence* evidence, int component,
-                     double cap, double* weight);
+/// The weights p_c / q of all landings, not cut: [mixture->components][evidence->count].
+void bt_pooled_weigh(const bt_mixture* mixture, const bt_evidence* evidence, double* weight);
 
-/// Chooses the cap of a condition, for n judged landings drawn with at least `least` times the
+/// Fills the law of a condition's weights, for landings drawn with at least `least` times the
 /// density of the design (NULL: of the mixture), from points of the condition keyed by the seed.
 /// Where the design has no density (outside a box) the weights are infinite, and cut off.
-bt_cut bt_pooled_cut(const bt_mixture* mixture, const bt_design* design, int component, int n,
-                     double least, uint64_t seed);
+void bt_pooled_law(const bt_mixture* mixture, const bt_design* design, int component, double least,
+                   uint64_t seed, bt_weight_law* law);
+
+/// The cap that makes the bound for errors never seen least, for n judged landings.
+bt_cut bt_pooled_cut(const bt_weight_law* law, int n, double tail);
 
 /// @param evidence  landings
 /// @param judged    [count] 1 engaged, 0 missed by the classifier of its round; -1: not judged
-/// @param weight    [count] p_c / q, at most cut->cap
+/// @param weight    [count] p_c / q, not cut
 /// @param hits, samples  how many samples of the condition, shared among the rounds' classifiers as
 ///                       the judged landings are, they called engaged
 bt_pooled bt_pooled_estimate(const bt_evidence* evidence, const int8_t* judged,

@@ -1,8 +1,11 @@
 #include "reliability/event_rows.h"
 
+#include "reliability/stop.h"
+
 #include "base/clock.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -192,6 +195,35 @@ static bt_reliability_classifier describe(const bt_surrogate* s) {
     return c;
 }
 
+/// A width that was asked for and is not there: what was reached.
+static void note_stop(const bt_study* study, bt_reliability_result* r) {
+    char text[BT_WARNING_SIZE];
+    if (!bt_stop_wanted(study))
+        return;
+    if (r->width_count == 0) {
+        bt_reliability_note(r, "no landing was judged: the width that was asked for is not known");
+        return;
+    }
+    const bt_width* last = &r->width[r->width_count - 1];
+    if (bt_stop_reached(study, last))
+        return;
+    const double widest = fmax(last->largest, last->overall);
+    if (study->reliability.half_width > 0 && !(widest <= study->reliability.half_width)) {
+        snprintf(text, sizeof text,
+                 "half-width %.3g asked for, %.3g reached with %lld landings (median %.3g); "
+                 "campaign.max_landings allows no more",
+                 study->reliability.half_width, widest, (long long)last->landings, last->median);
+        bt_reliability_note(r, text);
+    }
+    if (study->reliability.cov > 0 && !(last->cov <= study->reliability.cov)) {
+        snprintf(text, sizeof text,
+                 "coefficient of variation %.3g asked for, %.3g reached with %lld landings; "
+                 "campaign.max_landings allows no more",
+                 study->reliability.cov, last->cov, (long long)last->landings);
+        bt_reliability_note(r, text);
+    }
+}
+
 static bt_status evaluate_all(const evaluation* e, bt_reliability_result* result, bt_diag* diag) {
     const int total = e->study->condition_count + 1;
     const bt_reliability_options* o = e->options;
@@ -207,6 +239,7 @@ static bt_status evaluate_all(const evaluation* e, bt_reliability_result* result
     if (e->pool) {
         result->landings += o->judged->evidence->count;
         bt_pool_rows_differ(e->pool, e->study, result);
+        BT_TRY(bt_pool_rows_converge(e->pool, e->study, result));
         BT_TRY(bt_event_rows_fill(e->study, e->pool, o->events, o->event_count, o, result, diag));
     }
     if (!e->pool && o->event_count > 0)
@@ -214,6 +247,7 @@ static bt_status evaluate_all(const evaluation* e, bt_reliability_result* result
                                     "inputs frozen, say nothing about the conditions");
     result->classifier = describe(e->surrogate);
     bt_reliability_warn(e->surrogate, result);
+    note_stop(e->study, result);
     return BT_OK;
 }
 

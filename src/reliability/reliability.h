@@ -7,6 +7,7 @@
 #include "reliability/event.h"
 #include "reliability/high_fidelity.h"
 #include "reliability/judged.h"
+#include "reliability/widths.h"
 #include "reliability/zone.h"
 #include "surrogate/surrogate.h"
 
@@ -88,6 +89,8 @@ typedef struct bt_reliability_result {
     int event_count;
     bt_event_row event[BT_EVENT_MAX];
     bt_zones zones;
+    int width_count;
+    bt_width width[BT_ROUNDS_MAX]; ///< after every round; last, all landings
     int warning_count;
     char warning[BT_WARNING_MAX][BT_WARNING_SIZE]; ///< what the reader of the table must know
     double seconds;

@@ -61,6 +61,20 @@ static void write_classifier(bt_json* json, const bt_reliability_classifier* c) 
     bt_json_end_object(json);
 }
 
+static void write_widths(bt_json* json, const bt_reliability_result* result) {
+    bt_json_begin_array(json, "convergence");
+    for (int i = 0; i < result->width_count; ++i) {
+        const bt_width* w = &result->width[i];
+        bt_json_begin_object(json, NULL);
+        bt_json_integer(json, "landings", w->landings);
+        bt_json_number(json, "overall", w->overall);
+        bt_json_number(json, "median", w->median);
+        bt_json_number(json, "largest", w->largest);
+        bt_json_end_object(json);
+    }
+    bt_json_end_array(json);
+}
+
 void bt_reliability_write_json(bt_json* json, const bt_reliability_result* result) {
     bt_json_begin_object(json, NULL);
     bt_json_begin_array(json, "conditions");
@@ -74,6 +88,7 @@ void bt_reliability_write_json(bt_json* json, const bt_reliability_result* resul
     bt_json_end_array(json);
     if (result->event_count > 0)
         bt_reliability_write_events(json, result);
+    write_widths(json, result);
     bt_json_integer(json, "landings", result->landings);
     write_classifier(json, &result->classifier);
     bt_json_begin_array(json, "warnings");

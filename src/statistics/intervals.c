@@ -72,6 +72,10 @@ static double beta_quantile(double p, double a, double b) {
     return 0.5 * (low + high);
 }
 
+double bt_interval_half(const bt_interval* interval) {
+    return 0.5 * (interval->greatest - interval->least);
+}
+
 bt_interval bt_clopper_pearson(int64_t hits, int64_t trials, double level) {
     const double tail = 0.5 * (1 - level);
     const double k = (double)hits, n = (double)trials;

@@ -9,6 +9,9 @@ typedef struct bt_interval {
     double least, greatest;
 } bt_interval;
 
+/// Half its width.
+double bt_interval_half(const bt_interval* interval);
+
 /// Regularised incomplete beta function I_x(a, b), a, b > 0, 0 <= x <= 1: continued fraction
 /// [DLMF 8.17.22] by Lentz's method, on the side of the mean where it converges fast; as many
 /// terms as it needs (about sqrt(max(a, b))), so that counts of 10^10 are right too.

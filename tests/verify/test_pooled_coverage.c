@@ -6,6 +6,7 @@
 #include "base/rng.h"
 #include "reliability/pooled.h"
 #include "reliability/rounds.h"
+#include "reliability/stop.h"
 #include "surrogate/predictor.h"
 
 #include <gsl/gsl_cdf.h>
@@ -25,6 +26,7 @@ typedef struct world {
     double unsure; ///< share of a round where the classifier is unsure
     int kind;      ///< distribution of the inputs
     int landings;
+    double half_width; ///< stops after the first round where all conditions are so narrow; 0: never
 } world;
 
 /* ---- outcomes: functions of standard normal inputs, or of uniforms that were made so ---- */
@@ -91,32 +93,36 @@ static int steps(const double* x, int dims) {
 }
 
 static const world worlds[] = {
-    {"half space, one input", 1, half_space, 2, 0.3, 0, LANDINGS},
-    {"half space, two inputs", 2, half_space, 2, 0.3, 0, LANDINGS},
-    {"half space, no rounds", 2, half_space, 2, 0, 0, LANDINGS},
-    {"half space, mostly unsure", 2, half_space, 2, 0.7, 0, LANDINGS},
-    {"half space, six inputs", 6, half_space, 2, 0.3, 0, LANDINGS},
-    {"half space, twelve inputs", 12, half_space, 1.5, 0.3, 0, 512},
-    {"rare misses, two inputs", 2, rare, 1, 0.3, 0, LANDINGS},
-    {"rare misses, four inputs", 4, rare, 1, 0.3, 0, LANDINGS},
-    {"curved band", 2, band, 2, 0.3, 0, LANDINGS},
-    {"thin oblique band", 2, thin_band, 2, 0.3, 0, LANDINGS},
-    {"thin oblique band, few", 2, thin_band, 2, 0.3, 0, 256},
-    {"a pocket in the tail", 2, pocket, 2, 0.3, 0, LANDINGS},
-    {"a pocket, few landings", 2, pocket, 2, 0.3, 0, 256},
-    {"many small pockets", 2, small_pockets, 2, 0.3, 0, LANDINGS},
-    {"many small pockets, half unsure", 2, small_pockets, 2, 0.5, 0, LANDINGS},
-    {"misses like dust", 2, dust, 2, 0.3, 0, LANDINGS},
-    {"misses like dust, half unsure", 3, dust, 2, 0.5, 0, LANDINGS},
-    {"noisy edge", 2, noisy_edge, 2, 0.3, 0, LANDINGS},
-    {"ball, four inputs", 4, ball, 1, 0.3, 0, LANDINGS},
-    {"always engaged", 2, always, 2, 0.3, 0, 256},
-    {"nearly never engaged", 2, nearly_never, 1, 0.3, 0, LANDINGS},
-    {"steps", 2, steps, 2, 0.3, 0, LANDINGS},
-    {"far conditions", 2, half_space, 4, 0.3, 0, LANDINGS},
-    {"lognormal inputs", 2, half_space, 1, 0.3, 1, LANDINGS},
-    {"uniform inputs", 2, band, 0.5, 0.3, 2, LANDINGS},
-    {"correlated inputs", 3, half_space, 2, 0.3, 3, LANDINGS},
+    {"half space, one input", 1, half_space, 2, 0.3, 0, LANDINGS, 0},
+    {"half space, two inputs", 2, half_space, 2, 0.3, 0, LANDINGS, 0},
+    {"half space, no rounds", 2, half_space, 2, 0, 0, LANDINGS, 0},
+    {"half space, mostly unsure", 2, half_space, 2, 0.7, 0, LANDINGS, 0},
+    {"half space, six inputs", 6, half_space, 2, 0.3, 0, LANDINGS, 0},
+    {"half space, twelve inputs", 12, half_space, 1.5, 0.3, 0, 512, 0},
+    {"rare misses, two inputs", 2, rare, 1, 0.3, 0, LANDINGS, 0},
+    {"rare misses, four inputs", 4, rare, 1, 0.3, 0, LANDINGS, 0},
+    {"curved band", 2, band, 2, 0.3, 0, LANDINGS, 0},
+    {"thin oblique band", 2, thin_band, 2, 0.3, 0, LANDINGS, 0},
+    {"thin oblique band, few", 2, thin_band, 2, 0.3, 0, 256, 0},
+    {"a pocket in the tail", 2, pocket, 2, 0.3, 0, LANDINGS, 0},
+    {"a pocket, few landings", 2, pocket, 2, 0.3, 0, 256, 0},
+    {"many small pockets", 2, small_pockets, 2, 0.3, 0, LANDINGS, 0},
+    {"many small pockets, half unsure", 2, small_pockets, 2, 0.5, 0, LANDINGS, 0},
+    {"misses like dust", 2, dust, 2, 0.3, 0, LANDINGS, 0},
+    {"misses like dust, half unsure", 3, dust, 2, 0.5, 0, LANDINGS, 0},
+    {"noisy edge", 2, noisy_edge, 2, 0.3, 0, LANDINGS, 0},
+    {"ball, four inputs", 4, ball, 1, 0.3, 0, LANDINGS, 0},
+    {"always engaged", 2, always, 2, 0.3, 0, 256, 0},
+    {"nearly never engaged", 2, nearly_never, 1, 0.3, 0, LANDINGS, 0},
+    {"steps", 2, steps, 2, 0.3, 0, LANDINGS, 0},
+    {"far conditions", 2, half_space, 4, 0.3, 0, LANDINGS, 0},
+    {"lognormal inputs", 2, half_space, 1, 0.3, 1, LANDINGS, 0},
+    {"uniform inputs", 2, band, 0.5, 0.3, 2, LANDINGS, 0},
+    {"correlated inputs", 3, half_space, 2, 0.3, 3, LANDINGS, 0},
+    {"half space, stopped at 0.04", 2, half_space, 2, 0.3, 0, LANDINGS, 0.04},
+    {"pocket, stopped at 0.05", 2, pocket, 2, 0.3, 0, LANDINGS, 0.05},
+    {"dust, stopped at 0.08", 2, dust, 2, 0.3, 0, LANDINGS, 0.08},
+    {"thin band, stopped at 0.06", 2, thin_band, 2, 0.3, 0, LANDINGS, 0.06},
 };
 
 static bt_distribution input_of(int kind) {
@@ -134,6 +140,9 @@ static void make_study(const world* w, bt_study* study) {
     memset(study, 0, sizeof *study);
     study->input_count = w->dims;
     study->campaign.seed = 3;
+    study->campaign.unsure = w->unsure;
+    study->reliability.half_width = w->half_width;
+    study->reliability.samples = SAMPLES;
     for (int k = 0; k < w->dims; ++k) {
         study->inputs[k].random = true;
         study->inputs[k].distribution = input_of(w->kind);
@@ -167,13 +176,13 @@ static double truth(const world* w, const bt_mixture* m, int component) {
 }
 
 typedef struct tally {
-    int covered[CONDITIONS], apart, reweighted;
+    int covered[CONDITIONS], apart, reweighted, landings;
     double width[CONDITIONS];
 } tally;
 
 /// One campaign with its estimates.
-static void repeat(const world* w, const bt_mixture* m, const double* probability, uint64_t seed,
-                   tally* score) {
+static void repeat(const world* w, const bt_study* study, const bt_mixture* m,
+                   const double* probability, uint64_t seed, tally* score) {
     bt_evidence e;
     assert_int_equal(bt_evidence_create(w->dims, w->landings, &e), BT_OK);
     bt_rounds rounds = {.seed = seed,
@@ -184,6 +193,9 @@ static void repeat(const world* w, const bt_mixture* m, const double* probabilit
         rounds.chosen.weight[k] = 1;
     int8_t* judged = calloc((size_t)w->landings, 1);
     int64_t hits[CONDITIONS] = {0}, samples = 0;
+    bt_widths widths;
+    assert_int_equal(bt_widths_create(study, m, NULL, 1 - w->unsure, &widths), BT_OK);
+    double* weight = malloc((size_t)m->components * (size_t)w->landings * sizeof *weight);
     for (int begin = 0; begin < w->landings;) {
         int end = (int)bt_round_end(begin);
         end = end < w->landings ? end : w->landings;
@@ -223,14 +235,19 @@ static void repeat(const world* w, const bt_mixture* m, const double* probabilit
         bt_predictor_destroy(predictor);
         bt_surrogate_destroy(&classifier);
         begin = end;
+        if (bt_stop_wanted(study)) {
+            bt_pooled_weigh(m, &e, weight);
+            const bt_width width = bt_width_after(&widths, &e, judged, weight, e.count);
+            if (bt_stop_reached(study, &width))
+                break;
+        }
     }
-    double* weight = malloc(2 * (size_t)e.count * sizeof *weight);
+    bt_pooled_weigh(m, &e, weight);
+    score->landings += e.count;
     bt_cut cut[2];
-    bt_pooled last = {0};
     for (int c = 0; c < m->components; ++c) {
-        double* own = weight + (c & 1) * e.count;
-        cut[c & 1] = bt_pooled_cut(m, NULL, c, e.count - 128, 1 - w->unsure, 9);
-        bt_pooled_weigh(m, &e, c, cut[c & 1].cap, own);
+        const double* own = weight + c * e.count;
+        cut[c & 1] = bt_pooled_cut(&widths.law[c], e.count - 128, bt_stop_tail(study));
         const bt_pooled p = bt_pooled_estimate(&e, judged, own, &cut[c & 1], hits[c], samples);
         score->covered[c] += p.ci95.least <= probability[c] && probability[c] <= p.ci95.greatest;
         score->width[c] += 0.5 * (p.ci95.greatest - p.ci95.least);
@@ -239,15 +256,14 @@ static void repeat(const world* w, const bt_mixture* m, const double* probabilit
         if (c > 0) {
             const double means = (double)(hits[c] - hits[c - 1]) / (double)samples;
             const double spread = 1.96 * sqrt(0.5 / (double)samples);
-            const bt_pooled d = bt_pooled_difference(
-                &e, judged, own, weight + ((c - 1) & 1) * e.count, &cut[c & 1], &cut[(c - 1) & 1],
-                means, (bt_interval){means - spread, means + spread});
+            const bt_pooled d =
+                bt_pooled_difference(&e, judged, own, own - e.count, &cut[c & 1], &cut[(c - 1) & 1],
+                                     means, (bt_interval){means - spread, means + spread});
             const double apart = probability[c] - probability[c - 1];
             score->apart += d.ci95.least <= apart && apart <= d.ci95.greatest;
         }
-        last = p;
     }
-    (void)last;
+    bt_widths_destroy(&widths);
     free(weight);
     free(judged);
     bt_evidence_destroy(&e);
@@ -272,12 +288,13 @@ static void pooled_intervals_cover_in_every_world(void** state) {
             probability[c] = truth(w, m, c);
         tally s = {0};
         for (int r = 0; r < repeats; ++r)
-            repeat(w, m, probability, 1000 + (uint64_t)r, &s);
+            repeat(w, study, m, probability, 1000 + (uint64_t)r, &s);
         printf("%-32s", w->name);
         for (int c = 0; c < m->components; ++c)
             printf(" %.4f %2d/%d +-%.4f", probability[c], s.covered[c], repeats,
                    s.width[c] / repeats);
-        printf("  reweighted %d differences %d\n", s.reweighted, s.apart);
+        printf("  reweighted %d differences %d landings %d\n", s.reweighted, s.apart,
+               s.landings / repeats);
         fflush(stdout);
         for (int c = 0; c < m->components; ++c)
             assert_true(enough(s.covered[c], repeats));
