@@ -9,10 +9,19 @@
 // --- metrics ----------------------------------------------------------------------------------
 
 static const bt_metric_name drop_metrics[] = {
-    {"stroke_max", "m"},     {"sinkage_max", "m"},     {"tyre_compression_max", "m"},
-    {"tyre_force_max", "N"}, {"strut_force_max", "N"}, {"drag_force_max", "N"},
-    {"efficiency", "1"},     {"spin_up_time", "s"},    {"strut_energy", "J"},
-    {"tyre_energy", "J"},    {"tyre_efficiency", "1"}, {NULL, NULL},
+    {"stroke_max", "m"},
+    {"sinkage_max", "m"},
+    {"tyre_compression_max", "m"},
+    {"tyre_force_max", "N"},
+    {"strut_force_max", "N"},
+    {"drag_force_max", "N"},
+    {"efficiency", "1"},
+    {"spin_up_time", "s"},
+    {"strut_energy", "J"},
+    {"tyre_energy", "J"},
+    {"tyre_efficiency", "1"},
+    {"side_force_max", "N"},
+    {NULL, NULL},
 };
 static const bt_metric_name static_metrics[] = {
     {"load_extended", "N"}, {"load_compressed", "N"}, {"energy", "J"}, {"hysteresis", "J"},

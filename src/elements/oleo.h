@@ -43,7 +43,7 @@ enum { BT_SPRING_GAS, BT_SPRING_POINTS };
     F(REAL, seal_friction, N, OPTIONAL, 0, 0, 1e7, "", "friction of the seals, independent of pressure") \
     F(PLAIN, seal_coefficient, _, OPTIONAL, 0, 0, 1, "", "friction of the seals over the gas force") \
     F(PLAIN, bearing_coefficient, _, OPTIONAL, 0, 0, 1, "", "Coulomb coefficient of the bearings") \
-    F(PLAIN, side_load_ratio, _, OPTIONAL, 0, 0, 2, "", "side load at the axle over the strut force (tangent of the rake); loads the bearings") \
+    F(PLAIN, side_load_ratio, _, OPTIONAL, 0, 0, 2, "", "side load at the axle over the strut force; loads the bearings; 0: tangent of the gear's rake") \
     F(REAL, axle_distance, m, OPTIONAL, 0.5, 1e-3, 10, "", "l_2: axle to the lower bearing, which is fixed to the cylinder, strut extended [assumed]") \
     F(REAL, bearing_distance, m, OPTIONAL, 0.2, 1e-3, 10, "", "l_1: lower bearing to the upper one, which moves with the piston, strut extended [assumed]") \
     F(REAL, friction_speed, mps, OPTIONAL, 0.02, 1e-5, 1, "", "speed at which seal and bearing friction are fully developed [assumed]") \

@@ -1,4 +1,5 @@
-/// Element `strut`: an oleo between two bodies, along the axis of their prismatic joint.
+/// Elements `strut`, an oleo between two bodies along the axis of their prismatic joint, and
+/// `strut_link`, an oleo between a point of each.
 #ifndef BT_ELEMENTS_STRUT_H
 #define BT_ELEMENTS_STRUT_H
 
@@ -19,5 +20,17 @@ enum { BT_STRUT_STROKE, BT_STRUT_RATE, BT_STRUT_FORCE, BT_STRUT_OUTPUTS };
 
 /// Outputs stroke_m, rate_mps, force_N. Energy: gas and stops. Law: the oleo's.
 extern const bt_element_type bt_strut_type;
+
+/// Data of a strut held by a pin at each end.
+///
+///     s = l_0 - |p_b - p_a|,  s' its rate;  F_s(s, s') pushes the two points apart
+typedef struct bt_strut_link {
+    bt_oleo oleo;
+    double point_a_m[3], point_b_m[3];
+    double length_m; ///< l_0, extended
+} bt_strut_link;
+
+/// Outputs, energy and law as above.
+extern const bt_element_type bt_strut_link_type;
 
 #endif

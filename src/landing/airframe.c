@@ -1,7 +1,6 @@
 #include "landing/airframe.h"
 
 #include "elements/hook_damper_element.h"
-#include "elements/strut.h"
 #include "elements/torque.h"
 #include "elements/wheel.h"
 #include "elements/yaw_damper.h"
@@ -26,8 +25,8 @@ static void place_parts(const bt_aircraft_params* p, bt_airframe* f) {
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
         const bt_gear_params* gear = gear_of(p, leg);
         bt_tyre_prepare(&gear->tyre, &f->tyre[leg]);
-        bt_oleo_prepare(&gear->oleo, &f->oleo[leg]);
-        f->unsprung_kg[leg] = gear->piston_mass_kg + gear->wheel_mass_kg;
+        bt_gear_prepare_oleo(gear, &f->oleo[leg]);
+        bt_leg_prepare(gear, &f->leg[leg]);
         f->tyre_width_m[leg] = gear->tyre.width_m * (double)gear->tyre.tyres;
         f->axle_m[leg][0] = gear->station_m;
         f->axle_m[leg][1] = side[leg] * gear->half_track_m;
@@ -144,23 +143,12 @@ static void describe_shank(const bt_shank_part* part, double turned_m, double an
 static void describe_parts(const bt_aircraft_params* p, const bt_airframe* f,
                            bt_body_def parts[BODIES_MAX]) {
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
-        const bt_gear_params* gear = gear_of(p, leg);
-        const double* axle = f->axle_m[leg];
-        const double mp = gear->piston_mass_kg, mw = gear->wheel_mass_kg;
-        const double rod = mp * 0.25 / 12; // a piston is a slender rod of half a metre
-        bt_body_def piston = {.name = bt_body_names[BT_BODY_NOSE_PISTON + leg],
-                              .mass_kg = mp,
-                              .inertia_kgm2 = {rod, rod, 0.1 * rod},
-                              .position_m = {axle[0], axle[1], axle[2] + f->stroke_m[leg]},
-                              .attitude = {1, 0, 0, 0}};
-        bt_body_def wheel = piston;
-        wheel.name = bt_body_names[BT_BODY_NOSE_WHEEL + leg];
-        wheel.mass_kg = mw;
-        wheel.inertia_kgm2[0] = wheel.inertia_kgm2[2] =
-            bt_wheel_inertia_across(gear->wheel_inertia_kgm2);
-        wheel.inertia_kgm2[1] = gear->wheel_inertia_kgm2;
-        parts[BT_BODY_NOSE_PISTON + leg] = piston;
-        parts[BT_BODY_NOSE_WHEEL + leg] = wheel;
+        bt_body_def *piston = &parts[BT_BODY_NOSE_PISTON + leg],
+                    *wheel = &parts[BT_BODY_NOSE_WHEEL + leg];
+        bt_leg_describe(&f->leg[leg], gear_of(p, leg), f->stroke_m[leg], f->axle_m[leg], piston,
+                        wheel);
+        piston->name = bt_body_names[BT_BODY_NOSE_PISTON + leg];
+        wheel->name = bt_body_names[BT_BODY_NOSE_WHEEL + leg];
     }
     const bt_shank* shank = &f->shank;
     describe_shank(&shank->head, shank->joint_m, f->head_angle_rad, f, bt_body_names[BT_BODY_HOOK],
@@ -178,34 +166,19 @@ static void from_fuselage(const bt_airframe* f, const double point[3], double lo
 static void add_legs(bt_airframe* f) {
     static const char* const strut_names[] = {"nose_strut", "left_strut", "right_strut"};
     static const char* const tyre_names[] = {"nose_tyre", "left_tyre", "right_tyre"};
-    static const char* const slide_names[] = {"nose_slide", "left_slide", "right_slide"};
+    static const char* const joint_names[] = {"nose_slide", "left_slide", "right_slide"};
     static const char* const axle_names[] = {"nose_axle", "left_axle", "right_axle"};
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg) {
-        const int piston = BT_BODY_NOSE_PISTON + leg, wheel = BT_BODY_NOSE_WHEEL + leg;
-        bt_joint_def slide = {.name = slide_names[leg],
-                              .kind = BT_JOINT_PRISMATIC,
-                              .body_a = BT_BODY_FUSELAGE,
-                              .body_b = piston,
-                              .axis_a = {0, 0, 1},
-                              .axis_b = {0, 0, 1},
-                              .attitude_ab = {1, 0, 0, 0}};
-        from_fuselage(f, f->axle_m[leg], slide.point_a_m);
-        f->strut_joint[leg] = bt_system_add_joint(f->system, &slide);
-        const bt_joint_def axle = {.name = axle_names[leg],
-                                   .kind = BT_JOINT_REVOLUTE,
-                                   .body_a = piston,
-                                   .body_b = wheel,
-                                   .axis_a = {0, 1, 0},
-                                   .axis_b = {0, 1, 0}};
-        bt_system_add_joint(f->system, &axle);
-
-        bt_strut strut = {.oleo = f->oleo[leg], .axis_a = {0, 0, 1}};
-        memcpy(strut.point_a_m, slide.point_a_m, sizeof strut.point_a_m);
-        f->strut[leg] = bt_system_add_element(f->system, &(bt_element){.type = &bt_strut_type,
-                                                                       .name = strut_names[leg],
-                                                                       .body_a = BT_BODY_FUSELAGE,
-                                                                       .body_b = piston,
-                                                                       .data = &strut});
+        const int wheel = BT_BODY_NOSE_WHEEL + leg;
+        bt_leg_parts parts = {.airframe = BT_BODY_FUSELAGE,
+                              .piston = BT_BODY_NOSE_PISTON + leg,
+                              .wheel = wheel,
+                              .joint_name = joint_names[leg],
+                              .axle_name = axle_names[leg],
+                              .strut_name = strut_names[leg]};
+        from_fuselage(f, f->axle_m[leg], parts.axle_m);
+        f->strut[leg] =
+            bt_leg_add(f->system, &f->leg[leg], &f->oleo[leg], &parts, &f->strut_joint[leg]);
         const bt_wheel tread = {.tyre = f->tyre[leg]};
         f->wheel[leg] = bt_system_add_element(f->system, &(bt_element){.type = &bt_wheel_type,
                                                                        .name = tyre_names[leg],
@@ -318,8 +291,7 @@ static bt_status assemble(const bt_aircraft_params* p, double gravity_mps2, bt_a
     // how the parts hang in the glide, where lift carries lift_ratio of the weight
     const double effective_mps2 = p->lift_ratio * gravity_mps2;
     for (int leg = 0; leg < BT_LEG_COUNT; ++leg)
-        f->stroke_m[leg] =
-            bt_oleo_hanging_stroke(&f->oleo[leg], effective_mps2 * f->unsprung_kg[leg]);
+        f->stroke_m[leg] = bt_leg_hanging_stroke(&f->leg[leg], &f->oleo[leg], effective_mps2);
     hang_hook(&p->hook, &damper, effective_mps2, f);
 
     bt_body_def parts[BODIES_MAX] = {0};

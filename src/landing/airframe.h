@@ -1,11 +1,12 @@
 /// The airframe as a multibody system [Peng2023 Eq. 1]: fuselage, three pistons on prismatic
-/// joints, three wheels on revolute joints, the hook on a universal joint (and a shank that bends
-/// on a sprung revolute one); struts, tyres, hook damper, yaw damper, shoe on deck and lift as
-/// elements.
+/// joints (or arms on revolute ones), three wheels on revolute joints, the hook on a universal
+/// joint (and a shank that bends on a sprung revolute one); struts, tyres, hook damper, yaw damper,
+/// shoe on deck and lift as elements.
 #ifndef BT_LANDING_AIRFRAME_H
 #define BT_LANDING_AIRFRAME_H
 
 #include "elements/oleo.h"
+#include "landing/leg.h"
 #include "landing/lift.h"
 #include "landing/profile.h"
 #include "landing/shank.h"
@@ -20,7 +21,7 @@ typedef struct bt_airframe {
     bt_profile profile;
     bt_tyre tyre[BT_LEG_COUNT];
     bt_oleo oleo[BT_LEG_COUNT];
-    double unsprung_kg[BT_LEG_COUNT];
+    bt_leg leg[BT_LEG_COUNT];
     double tyre_width_m[BT_LEG_COUNT]; ///< all tyres of the leg
     double fuselage_m[3];              ///< fuselage's centre of mass from the aircraft's
     double axle_m[BT_LEG_COUNT][3];    ///< axles from the centre of gravity, struts extended

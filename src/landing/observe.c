@@ -34,9 +34,8 @@ static void observe_leg(const bt_landing_model* m, const bt_landing_state* s, in
         view->tyre_cable_force_N[leg] += s->wire[k].wheel[leg].normal_N;
     view->wheel_spin_radps[leg] = a->v[wheel + 4];
     bt_system_joint_load(f->system, a, f->strut_joint[leg], force, torque);
-    const double* up = a->rotation; // third column of the fuselage
-    const double along = force[0] * up[2] + force[1] * up[5] + force[2] * up[8];
-    view->strut_side_force_N[leg] = sqrt(fmax(0, bt_dot(force, force) - along * along));
+    view->strut_side_force_N[leg] =
+        bt_leg_side_force(&f->leg[leg], a->rotation + 9 * BT_BODY_FUSELAGE, force);
 }
 
 static void observe_wire(const bt_landing_model* m, bt_landing_state* s, bt_landing_view* view) {

@@ -14,10 +14,6 @@ const char* const bt_distance_from_names[] = {"hook", "main_wheels", NULL};
 const char* const bt_start_names[] = {"glide", "rolling", NULL};
 const char* const bt_lift_law_names[] = {"constant", "aerodynamic", NULL};
 
-#define ROW(kind, name, ...) BT_ROW_##kind(bt_gear_params, name, __VA_ARGS__)
-BT_DEFINE_GROUP(gear, BT_GEAR_FIELDS, ROW, NULL, "one leg: strut, piston, wheel and tyre")
-#undef ROW
-
 #define ROW(kind, name, ...) BT_ROW_##kind(bt_hook_profile_params, name, __VA_ARGS__)
 BT_DEFINE_GROUP(hook_profile, BT_HOOK_PROFILE_FIELDS, ROW, NULL,
                 "the head's outline in its plane of symmetry")

@@ -10,15 +10,36 @@
 #include "elements/oleo.h"
 #include "elements/tyre.h"
 
+enum { BT_LEG_TELESCOPIC, BT_LEG_LEVERED };
+extern const char* const bt_gear_type_names[];
+
+#define BT_ARM_FIELDS(F)                                                                           \
+    F(REAL, pivot_x, m, OPTIONAL, 0, -5, 5, "",                                                    \
+      "pivot of the arm on the airframe, from the axle of the extended leg, forward positive "     \
+      "(above 0: a trailing arm)")                                                                 \
+    F(REAL, pivot_z, m, OPTIONAL, 0, -5, 5, "", "and up positive")                                 \
+    F(REAL, foot_x, m, OPTIONAL, 0, -5, 5, "", "strut's attachment on the arm, likewise")          \
+    F(REAL, foot_z, m, OPTIONAL, 0, -5, 5, "", "and up positive")                                  \
+    F(REAL, head_x, m, OPTIONAL, 0, -5, 5, "", "strut's attachment on the airframe, likewise")     \
+    F(REAL, head_z, m, OPTIONAL, 0, -5, 5, "", "and up positive")
+BT_DECLARE_GROUP(arm, BT_ARM_FIELDS)
+
 #define BT_GEAR_FIELDS(F)                                                                          \
+    F(CHOICE, type, bt_gear_type_names, OPTIONAL, 0, 0, 0, "",                                     \
+      "telescopic: the wheel is on the strut's piston; levered: on an arm that turns about a "     \
+      "pivot, the strut between arm and airframe")                                                 \
+    F(REAL, rake, rad, OPTIONAL, 0, -0.7, 0.7, "",                                                 \
+      "telescopic: angle of the strut from the airframe's upright, foot forward positive")         \
+    F(GROUP, arm, arm, OPTIONAL, 0, 0, 0, "", "levered: the arm")                                  \
     F(REAL, station, m, REQUIRED, -1.2, -30, 30, "",                                               \
-      "x of the axle from the centre of gravity, forward positive")                                \
+      "x of the axle from the centre of gravity, leg extended, forward positive")                  \
     F(REAL, half_track, m, REQUIRED, 2.445, 0, 20, "",                                             \
       "distance of the axle from the plane of symmetry; 0 for the nose gear")                      \
     F(REAL, underside, m, REQUIRED, -2.59, -20, 0, "",                                             \
       "height of the extended tyre's underside from the centre of gravity (negative)")             \
     F(REAL, piston_mass, kg, REQUIRED, 120, 1e-6, 1e4, "",                                         \
-      "mass of the sliding part without wheels")                                                   \
+      "mass of the sliding part without wheels; of a levered leg's arm, a slender rod from pivot " \
+      "to axle [assumed]")                                                                         \
     F(REAL, wheel_mass, kg, REQUIRED, 50, 1e-6, 1e4, "", "mass of the turning part")               \
     F(REAL, wheel_inertia, kgm2, REQUIRED, 8, 1e-3, 1e4, "",                                       \
       "inertia of the turning part about its axle")                                                \

@@ -2,6 +2,7 @@
 
 #include "cable/cable.h"
 #include "elements/tyre.h"
+#include "landing/leg.h"
 #include "landing/shank.h"
 
 #include <math.h>
@@ -63,8 +64,9 @@ int bt_airframe_stable_steps(const bt_model_params* model, bt_stable_step* steps
     const bt_gear_params* main_gear = &model->aircraft.main_gear;
     const bt_hook_params* hook = &model->aircraft.hook;
     const bt_solver_params* solver = &model->landing.solver;
-    const double nose_kg = nose->piston_mass_kg + nose->wheel_mass_kg;
-    const double main_kg = main_gear->piston_mass_kg + main_gear->wheel_mass_kg;
+    bt_leg nose_leg, main_leg;
+    bt_leg_prepare(nose, &nose_leg);
+    bt_leg_prepare(main_gear, &main_leg);
     const double lever = hook->damper_lever_m;
     bt_shank shank;
     bt_shank_prepare(hook, &shank);
@@ -74,13 +76,14 @@ int bt_airframe_stable_steps(const bt_model_params* model, bt_stable_step* steps
     bt_hook_damper damper;
     bt_hook_damper_prepare(&hook->damper, &damper);
     const bt_stable_step all[] = {
-        {"aircraft.nose_gear.oleo", airframe, step_of(nose->oleo.stop_stiffness_Npm, nose_kg),
+        {"aircraft.nose_gear.oleo", airframe,
+         step_of(nose->oleo.stop_stiffness_Npm, nose_leg.stroke_kg), flight_s},
+        {"aircraft.nose_gear.tyre", airframe, step_of(tyre_slope(&nose->tyre), nose_leg.axle_kg),
          flight_s},
-        {"aircraft.nose_gear.tyre", airframe, step_of(tyre_slope(&nose->tyre), nose_kg), flight_s},
-        {"aircraft.main_gear.oleo", airframe, step_of(main_gear->oleo.stop_stiffness_Npm, main_kg),
-         flight_s},
-        {"aircraft.main_gear.tyre", airframe, step_of(tyre_slope(&main_gear->tyre), main_kg),
-         flight_s},
+        {"aircraft.main_gear.oleo", airframe,
+         step_of(main_gear->oleo.stop_stiffness_Npm, main_leg.stroke_kg), flight_s},
+        {"aircraft.main_gear.tyre", airframe,
+         step_of(tyre_slope(&main_gear->tyre), main_leg.axle_kg), flight_s},
         {"aircraft.hook.damper", contact,
          bt_hook_damper_step_limit(&damper, about_pivot / (lever * lever)), contact_s},
         {"aircraft.hook.deck_contact", contact, shoe_step(model), contact_s},

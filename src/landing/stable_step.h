@@ -17,7 +17,8 @@ enum { BT_STABLE_STEP_MAX = 12 };
 /// Fills steps [BT_STABLE_STEP_MAX] and returns how many. omega = sqrt(k / m) with the element's
 /// largest stiffness k in this landing and the smallest mass m it moves:
 ///
-/// struts     k_l of Eq. 5 on piston and wheel
+/// struts     k_l of Eq. 5 on piston and wheel (of a levered leg: what arm and wheel weigh at the
+///            strut and at the axle)
 /// tyres      slope of the load curve at a deflection of a tenth of the radius, on piston and wheel
 /// shank      of its sprung joint, the root free about the pivot (a shank that bends)
 /// down stop  k r^2 on the inertia about the pivot of the hook, or of its root where it bends; r

@@ -25,6 +25,18 @@ static void place_shank(const bt_airframe* f, double turned_m, double centre_m, 
     memcpy(e, attitude, sizeof attitude);
 }
 
+/// Moves a piston or arm, or a wheel, from where it hangs to where it is at the stance's stroke.
+static void place_on_leg(const bt_airframe* f, const bt_stance* s, int leg, bool piston,
+                         double local[3], double e[4]) {
+    bt_leg_place hangs, stands;
+    bt_leg_at(&f->leg[leg], f->stroke_m[leg], &hangs);
+    bt_leg_at(&f->leg[leg], s->stroke_m[leg], &stands);
+    bt_add_scaled(local, 1, piston ? stands.piston_m : stands.axle_m);
+    bt_add_scaled(local, -1, piston ? hangs.piston_m : hangs.axle_m);
+    if (piston)
+        memcpy(e, stands.attitude, sizeof stands.attitude);
+}
+
 /// A body's place and attitude in the fuselage's axes.
 static void place_in_fuselage(const bt_airframe* f, const bt_state* hanging, const bt_stance* s,
                               int body, double local[3], double e[4]) {
@@ -43,7 +55,7 @@ static void place_in_fuselage(const bt_airframe* f, const bt_state* hanging, con
     bt_add_scaled(local, -1, hanging->q + 7 * BT_BODY_FUSELAGE);
     if (body != BT_BODY_FUSELAGE) {
         const int leg = (body - BT_BODY_NOSE_PISTON) % BT_LEG_COUNT;
-        local[2] += s->stroke_m[leg] - f->stroke_m[leg];
+        place_on_leg(f, s, leg, body < BT_BODY_NOSE_WHEEL, local, e);
     }
 }
 
@@ -138,8 +150,15 @@ static double bisect(double low, double high, double wanted, double (*value)(con
     return 0.5 * (low + high);
 }
 
-static double strut_force(const void* oleo, double stroke_m) {
-    return bt_oleo_force(oleo, stroke_m, 0);
+/// A leg that stands: what its axle holds up at a stroke.
+typedef struct standing_leg {
+    const bt_leg* leg;
+    const bt_oleo* oleo;
+} standing_leg;
+
+static double carried(const void* standing, double stroke_m) {
+    const standing_leg* s = standing;
+    return bt_oleo_force(s->oleo, stroke_m, 0) / bt_leg_load_ratio(s->leg, stroke_m);
 }
 
 static double tyre_load(const void* tyre, double deflection_m) {
@@ -153,12 +172,13 @@ static bt_status load_leg(const search* s, int leg, double load_N, double effect
     const bt_gear_params* gear =
         leg == BT_LEG_NOSE ? &s->params->aircraft.nose_gear : &s->params->aircraft.main_gear;
     const double most_m = gear->oleo.stroke_max_m;
-    const double carried_N = load_N - effective_mps2 * s->f->unsprung_kg[leg];
-    const double most_N = bt_oleo_force(oleo, most_m, 0);
+    const standing_leg standing = {&s->f->leg[leg], oleo};
+    const double carried_N = load_N - effective_mps2 * s->f->leg[leg].unsprung_kg;
+    const double most_N = carried(&standing, most_m);
     const char* what = "";
     if (carried_N >= most_N)
         return refuse_strut(s, leg, carried_N, most_N);
-    *stroke_m = bisect(-0.1, most_m, carried_N, strut_force, oleo);
+    *stroke_m = bisect(-0.1, most_m, carried_N, carried, &standing);
     const double deflection_m =
         bisect(0, 2 * s->f->tyre[leg].radius, load_N, tyre_load, &s->f->tyre[leg]);
     *axle_m = s->f->tyre[leg].radius - deflection_m;
@@ -182,7 +202,9 @@ static bt_status guess_legs(const search* s, double effective_mps2, bt_stance* s
     for (int leg = BT_LEG_NOSE; leg <= BT_LEG_LEFT; ++leg) {
         double axle_m = 0;
         BT_TRY(load_leg(s, leg, load_N[leg], effective_mps2, &stance->stroke_m[leg], &axle_m));
-        above_m[leg] = axle_m - f->axle_m[leg][2] - stance->stroke_m[leg];
+        bt_leg_place place;
+        bt_leg_at(&f->leg[leg], stance->stroke_m[leg], &place);
+        above_m[leg] = axle_m - f->axle_m[leg][2] - place.axle_m[2];
     }
     stance->stroke_m[BT_LEG_RIGHT] = stance->stroke_m[BT_LEG_LEFT];
     const double slope = (above_m[BT_LEG_NOSE] - above_m[BT_LEG_LEFT]) / (nose_m - main_m);
@@ -262,6 +284,11 @@ static void write_unknowns(search* s, const double x[UNKNOWNS], bt_stance* stanc
     lower_hook(s, stance, x[4], x[5]);
 }
 
+/// Of the piston upward, or of the arm's turning, a metre from its pivot.
+static double leg_residual(const bt_airframe* f, int leg, const double* a) {
+    return a[6 * (BT_BODY_NOSE_PISTON + leg) + (f->leg[leg].levered ? 4 : 2)];
+}
+
 /// Accelerations of fuselage, pistons and hook that equilibrium has none of, as m/s2. False when
 /// they cannot be computed.
 static bool residual(search* s, const double x[UNKNOWNS], double r[UNKNOWNS]) {
@@ -272,8 +299,8 @@ static bool residual(search* s, const double x[UNKNOWNS], double r[UNKNOWNS]) {
     const double* a = s->state.a;
     r[0] = a[6 * BT_BODY_FUSELAGE + 2];
     r[1] = a[6 * BT_BODY_FUSELAGE + 4];
-    r[2] = a[6 * BT_BODY_NOSE_PISTON + 2];
-    r[3] = a[6 * BT_BODY_LEFT_PISTON + 2];
+    r[2] = leg_residual(s->f, BT_LEG_NOSE, a);
+    r[3] = leg_residual(s->f, BT_LEG_LEFT, a);
     r[4] = a[6 * (s->f->shank.bends ? BT_BODY_COUNT : BT_BODY_HOOK) + 4];
     r[5] = s->f->shank.bends ? a[6 * BT_BODY_HOOK + 4] : 0;
     for (int k = 0; k < UNKNOWNS; ++k)

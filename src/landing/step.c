@@ -56,7 +56,7 @@ static double damped_step(const bt_landing_model* m, const bt_landing_state* s) 
         const double rate = bt_landing_output(m, s, f->strut[leg], BT_STRUT_RATE);
         const double oil_N = bt_oleo_oil_force(&f->oleo[leg], stroke, rate);
         if (oil_N != 0)
-            step_s = fmin(step_s, 0.4 * f->unsprung_kg[leg] * rate / oil_N);
+            step_s = fmin(step_s, 0.4 * f->leg[leg].stroke_kg * rate / oil_N);
     }
     return step_s;
 }

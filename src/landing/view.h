@@ -38,7 +38,7 @@ extern const char* const bt_body_names[BT_BODY_COUNT];
     V(ZONES, hook, zone_force, N, "normal force of the cable on a zone of the head") \
     V(LEGS, legs, stroke, m, "strut stroke") \
     V(LEGS, legs, strut_force, N, "strut force") \
-    V(LEGS, legs, strut_side_force, N, "force across the strut, of the fuselage on the piston") \
+    V(LEGS, legs, strut_side_force, N, "force across the strut, of the fuselage on the piston; of a levered leg, at the arm's pivot") \
     V(LEGS, legs, tyre_deflection, m, "tyre deflection") \
     V(LEGS, legs, tyre_force, N, "tyre force from deck and cable") \
     V(LEGS, legs, tyre_cable_force, N, "part of the tyre force that lies on the cable") \

@@ -1,5 +1,6 @@
 #include "elements/strut.h"
 #include "elements/wheel.h"
+#include "landing/leg.h"
 #include "rigs/rig.h"
 
 #include <math.h>
@@ -8,44 +9,40 @@ enum { BODY_MASS, BODY_PISTON, BODY_WHEEL };
 
 typedef struct drop_rig {
     bt_rig rig;
-    int strut, wheel;
+    int strut, wheel, joint;
     double lift_N;
     double start_m;       ///< height of the mass at touchdown
     double rolling_radps; ///< wheel speed that follows the belt
-    double unsprung_kg, sink_mps;
+    double sink_mps;
+    bt_leg leg;
     bt_oleo oleo;
     bt_tyre tyre;
 } drop_rig;
 
+/// Height of the mass above the axle of the extended leg; any will do.
+static const double above_axle_m = 1;
+
 static void add_bodies(const bt_gear_params* gear, const bt_drop_params* drop, double stroke_m,
                        drop_rig* d) {
-    const double axle = gear->tyre.radius_m, unsprung = gear->piston_mass_kg + gear->wheel_mass_kg;
-    const double sprung = drop->mass_kg - unsprung,
-                 across = bt_wheel_inertia_across(gear->wheel_inertia_kgm2);
-    d->start_m = axle + 1 - stroke_m;
-    const bt_body_def bodies[] = {
-        {.name = "mass",
-         .mass_kg = sprung,
-         .inertia_kgm2 = {sprung, sprung, sprung},
-         .position_m = {0, 0, d->start_m}},
-        {.name = "piston",
-         .mass_kg = gear->piston_mass_kg,
-         .inertia_kgm2 = {gear->piston_mass_kg, gear->piston_mass_kg, gear->piston_mass_kg},
-         .position_m = {0, 0, axle}},
-        {.name = "wheel",
-         .mass_kg = gear->wheel_mass_kg,
-         .inertia_kgm2 = {across, gear->wheel_inertia_kgm2, across},
-         .position_m = {0, 0, axle}},
-    };
+    const double sprung = drop->mass_kg - d->leg.unsprung_kg;
+    bt_leg_place place;
+    bt_leg_at(&d->leg, stroke_m, &place);
+    d->start_m = gear->tyre.radius_m + above_axle_m - place.axle_m[2];
+    bt_body_def bodies[3] = {{.mass_kg = sprung,
+                              .inertia_kgm2 = {sprung, sprung, sprung},
+                              .position_m = {0, 0, d->start_m},
+                              .attitude = {1, 0, 0, 0}}};
+    const double axle_m[3] = {0, 0, d->start_m - above_axle_m};
+    bt_leg_describe(&d->leg, gear, stroke_m, axle_m, &bodies[BODY_PISTON], &bodies[BODY_WHEEL]);
+    static const char* const names[] = {"mass", "piston", "wheel"};
     for (int i = 0; i < 3; ++i) {
-        bt_body_def body = bodies[i];
-        body.attitude[0] = 1;
-        body.velocity_mps[2] = -d->sink_mps;
-        bt_rig_add_body(&d->rig, &body);
+        bodies[i].name = names[i];
+        bodies[i].velocity_mps[2] = -d->sink_mps;
+        bt_rig_add_body(&d->rig, &bodies[i]);
     }
 }
 
-static void add_joints(bt_system* system, double mass_height_m) {
+static void add_joints(drop_rig* d) {
     const bt_joint_def guides = {.name = "guides",
                                  .kind = BT_JOINT_PRISMATIC,
                                  .body_a = BT_GROUND,
@@ -53,38 +50,26 @@ static void add_joints(bt_system* system, double mass_height_m) {
                                  .axis_a = {0, 0, 1},
                                  .axis_b = {0, 0, 1},
                                  .attitude_ab = {1, 0, 0, 0}};
-    const bt_joint_def slide = {.name = "slide",
-                                .kind = BT_JOINT_PRISMATIC,
-                                .body_a = BODY_MASS,
-                                .body_b = BODY_PISTON,
-                                .point_a_m = {0, 0, -mass_height_m},
-                                .axis_a = {0, 0, 1},
-                                .axis_b = {0, 0, 1},
-                                .attitude_ab = {1, 0, 0, 0}};
-    const bt_joint_def axle = {.name = "axle",
-                               .kind = BT_JOINT_REVOLUTE,
-                               .body_a = BODY_PISTON,
-                               .body_b = BODY_WHEEL,
-                               .axis_a = {0, 1, 0},
-                               .axis_b = {0, 1, 0}};
-    bt_system_add_joint(system, &guides);
-    bt_system_add_joint(system, &slide);
-    bt_system_add_joint(system, &axle);
+    const bt_leg_parts leg = {.airframe = BODY_MASS,
+                              .piston = BODY_PISTON,
+                              .wheel = BODY_WHEEL,
+                              .axle_m = {0, 0, -above_axle_m},
+                              .joint_name = "slide",
+                              .axle_name = "axle",
+                              .strut_name = "strut"};
+    bt_system_add_joint(d->rig.system, &guides);
+    d->strut = bt_leg_add(d->rig.system, &d->leg, &d->oleo, &leg, &d->joint);
 }
 
 static bt_status build(const bt_gear_params* gear, const bt_drop_params* drop, drop_rig* d) {
-    const double unsprung = gear->piston_mass_kg + gear->wheel_mass_kg;
-    if (drop->mass_kg <= unsprung) {
+    bt_leg_prepare(gear, &d->leg);
+    if (drop->mass_kg <= d->leg.unsprung_kg) {
         bt_diag_add(d->rig.diag, BT_ERROR, BT_NOWHERE,
                     "mass: the drop mass of %g kg is not above that of piston and wheel, %g kg",
-                    drop->mass_kg, unsprung);
+                    drop->mass_kg, d->leg.unsprung_kg);
         return BT_ERR_INPUT;
     }
-    const double height = 1; // of the mass above the axle, strut extended; any will do
-    bt_strut strut = {.point_a_m = {0, 0, -height}, .axis_a = {0, 0, 1}};
-    bt_oleo_prepare(&gear->oleo, &strut.oleo);
-    d->oleo = strut.oleo;
-    d->unsprung_kg = unsprung;
+    bt_gear_prepare_oleo(gear, &d->oleo);
     d->sink_mps = drop->drop_height_m > 0 ? sqrt(2 * drop->gravity_mps2 * drop->drop_height_m)
                                           : drop->sink_speed_mps;
     bt_wheel wheel = {.deck_velocity_mps = {-drop->belt_speed_mps, 0, 0}};
@@ -92,13 +77,8 @@ static bt_status build(const bt_gear_params* gear, const bt_drop_params* drop, d
     d->tyre = wheel.tyre;
     // As it falls: the stop carries the gas, and what the unsprung parts feel of the lift.
     const double effective_mps2 = drop->lift_ratio * drop->gravity_mps2;
-    add_bodies(gear, drop, bt_oleo_hanging_stroke(&strut.oleo, unsprung * effective_mps2), d);
-    add_joints(d->rig.system, height);
-    d->strut = bt_system_add_element(d->rig.system, &(bt_element){.type = &bt_strut_type,
-                                                                  .name = "strut",
-                                                                  .body_a = BODY_MASS,
-                                                                  .body_b = BODY_PISTON,
-                                                                  .data = &strut});
+    add_bodies(gear, drop, bt_leg_hanging_stroke(&d->leg, &d->oleo, effective_mps2), d);
+    add_joints(d);
     d->wheel = bt_system_add_element(d->rig.system, &(bt_element){.type = &bt_wheel_type,
                                                                   .name = "tyre",
                                                                   .body_a = BODY_WHEEL,
@@ -109,11 +89,11 @@ static bt_status build(const bt_gear_params* gear, const bt_drop_params* drop, d
     return bt_rig_start(&d->rig, drop->gravity_mps2);
 }
 
-enum { STROKE, STROKE_RATE, STRUT_FORCE, SINKAGE, TYRE, TYRE_FORCE, DRAG, SPIN };
+enum { STROKE, STROKE_RATE, STRUT_FORCE, SINKAGE, TYRE, TYRE_FORCE, DRAG, SPIN, SIDE };
 
 const char* const bt_drop_channels[BT_DROP_CHANNELS] = {
-    "stroke_m",           "stroke_rate_mps", "strut_force_N", "sinkage_m",
-    "tyre_compression_m", "tyre_force_N",    "drag_force_N",  "wheel_spin_radps"};
+    "stroke_m",     "stroke_rate_mps", "strut_force_N",    "sinkage_m",   "tyre_compression_m",
+    "tyre_force_N", "drag_force_N",    "wheel_spin_radps", "side_force_N"};
 
 static void look(const drop_rig* d, double channel[BT_DROP_CHANNELS]) {
     const double* strut = bt_rig_output(&d->rig, d->strut);
@@ -126,6 +106,9 @@ static void look(const drop_rig* d, double channel[BT_DROP_CHANNELS]) {
     channel[TYRE_FORCE] = wheel[BT_WHEEL_NORMAL];
     channel[DRAG] = -wheel[BT_WHEEL_FORWARD];
     channel[SPIN] = d->rig.state.v[6 * BODY_WHEEL + 4];
+    double force_N[3], torque_Nm[3];
+    bt_system_joint_load(d->rig.system, &d->rig.state, d->joint, force_N, torque_Nm);
+    channel[SIDE] = bt_leg_side_force(&d->leg, d->rig.state.rotation + 9 * BODY_MASS, force_N);
 }
 
 /// What is kept of a run: extremes, the work done on the strut, spin-up.
@@ -171,6 +154,7 @@ static void report(const bt_drop_params* drop, const record* r, const drop_rig* 
     bt_rig_add(result, "strut_force_max_N", "N", r->most[STRUT_FORCE], ref->strut_force_max_N,
                accepted(ref, ref->strut_force_max_tolerance));
     bt_rig_add(result, "drag_force_max_N", "N", r->most[DRAG] + 0.0, 0, 0); // no -0
+    bt_rig_add(result, "side_force_max_N", "N", r->most[SIDE], 0, 0);
     bt_rig_add(result, "efficiency", "1", r->taken_J / (r->most[STRUT_FORCE] * r->most[STROKE]),
                ref->efficiency, accepted(ref, ref->efficiency_tolerance));
     bt_rig_add(result, "spin_up_time_s", "s", r->spin_up_s, 0, 0);
@@ -209,20 +193,37 @@ static double stiffness(const bt_drop_params* drop, const drop_rig* d,
     return bt_tyre_stiffness(&d->tyre, deflection) + (stops ? o->stops.stiffness : 0);
 }
 
+/// Longest step of a wheel that rolls: 0.8 of m / (dF/dv), F its friction over the slip speed, m
+/// what turns and what goes along. Upright on a platform at rest it does neither.
+static double rolling_step(const bt_gear_params* gear, const bt_drop_params* drop,
+                           const drop_rig* d, const double channel[BT_DROP_CHANNELS]) {
+    const double forward = d->rig.state.v[6 * BODY_WHEEL] + drop->belt_speed_mps;
+    if ((forward == 0 && channel[SPIN] == 0) || !(channel[TYRE_FORCE] > 0))
+        return INFINITY;
+    static const double small = 1e-6;
+    const bt_tyre* t = &d->tyre;
+    const double slope = bt_tyre_slip_friction(t, small) / small * channel[TYRE_FORCE] /
+                         hypot(forward, t->slip_speed);
+    const double r2 = t->radius * t->radius;
+    return 0.8 / (slope * (r2 / gear->wheel_inertia_kgm2 + 1 / d->leg.axle_kg));
+}
+
 /// The step that is asked for, or a shorter one: half of 1 / omega of the unsprung mass on what it
 /// stands on; and where its damping would be unstable: 0.8 of m / (dF/ds'), with dF_h/ds' = 2 F_h /
 /// s' and the slope of the friction. A rebound valve asks for it when the wheel has left the
 /// platform.
-static double next_step(const bt_drop_params* drop, const drop_rig* d, double stroke_m,
-                        double rate_mps, double last_rate_mps, double stiffness_Npm) {
-    const double oil =
-        rate_mps != 0 ? 2 * bt_oleo_oil_force(&d->oleo, stroke_m, rate_mps) / rate_mps : 0;
-    const double damping = oil + friction_slope(d, stroke_m, rate_mps, last_rate_mps);
-    double step = drop->step_s;
-    if (damping * step > 0.8 * d->unsprung_kg)
-        step = 0.8 * d->unsprung_kg / damping;
-    if (stiffness_Npm * step * step > 0.25 * d->unsprung_kg)
-        step = 0.5 * sqrt(d->unsprung_kg / stiffness_Npm);
+static double next_step(const bt_gear_params* gear, const bt_drop_params* drop, const drop_rig* d,
+                        const double channel[BT_DROP_CHANNELS], double last_rate_mps) {
+    const double stroke = channel[STROKE], rate = channel[STROKE_RATE];
+    const double stiffness_Npm = stiffness(drop, d, channel);
+    const double oil = rate != 0 ? 2 * bt_oleo_oil_force(&d->oleo, stroke, rate) / rate : 0;
+    const double damping = oil + friction_slope(d, stroke, rate, last_rate_mps);
+    const double least_kg = fmin(d->leg.stroke_kg, d->leg.axle_kg);
+    double step = fmin(drop->step_s, rolling_step(gear, drop, d, channel));
+    if (damping * step > 0.8 * d->leg.stroke_kg)
+        step = 0.8 * d->leg.stroke_kg / damping;
+    if (stiffness_Npm * step * step > 0.25 * least_kg)
+        step = 0.5 * sqrt(least_kg / stiffness_Npm);
     return step;
 }
 
@@ -237,10 +238,8 @@ static bt_status run_drop(const bt_gear_params* gear, const bt_drop_params* drop
     bt_rig_show(&d->rig, BT_DROP_CHANNELS, bt_drop_channels, channel);
     while (d->rig.state.time_s < drop->duration_s - 1e-6 * drop->step_s) {
         const double left = drop->duration_s - d->rig.state.time_s;
-        const double rate = channel[STROKE_RATE];
-        const double step =
-            next_step(drop, d, channel[STROKE], rate, last_rate, stiffness(drop, d, channel));
-        last_rate = rate;
+        const double step = next_step(gear, drop, d, channel, last_rate);
+        last_rate = channel[STROKE_RATE];
         BT_TRY(bt_rig_step(&d->rig, fmin(step, left)));
         look(d, channel);
         keep(&r, d, channel);

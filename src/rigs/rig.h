@@ -8,7 +8,7 @@
 extern const char* const bt_drop_channels[];
 extern const char* const bt_rebound_channels[];
 extern const char* const bt_static_channels[];
-enum { BT_DROP_CHANNELS = 8, BT_REBOUND_CHANNELS = 6, BT_STATIC_CHANNELS = 3 };
+enum { BT_DROP_CHANNELS = 9, BT_REBOUND_CHANNELS = 6, BT_STATIC_CHANNELS = 3 };
 
 enum { BT_RIG_BODIES_MAX = 4, BT_RIG_ELEMENTS_MAX = 6 };
 

@@ -151,10 +151,12 @@ BT_CHECKED bt_status bt_rig_run(bt_rig_kind kind, const bt_aircraft_params* airc
                                 const bt_rigs_params* rigs, bt_rig_result* result,
                                 bt_rig_observer* observer, void* user, bt_diag* diag);
 
-/// Drop of one leg: the mass falls on it in guides, the wheel turns freely over a platform or belt.
+/// Drop of one leg, telescopic or levered: the mass falls on it in guides, the wheel turns freely
+/// over a platform or belt.
 ///
 /// Metrics: stroke_max_m; sinkage_max_m (of the dropped mass above the strut, from touchdown);
-/// tyre_compression_max_m; tyre_force_max_N; strut_force_max_N; drag_force_max_N; efficiency (work
+/// tyre_compression_max_m; tyre_force_max_N; strut_force_max_N; drag_force_max_N;
+/// side_force_max_N (across the strut on its bearings; at the pivot of an arm); efficiency (work
 /// done on the strut until its largest stroke, over peak force times that stroke); spin_up_time_s
 /// (until 99 % of the belt's speed, NAN without belt or when it is not reached). strut_energy_J
 /// (work done on the strut until its largest stroke); tyre_energy_J (most that the tyre stores);

@@ -1,4 +1,4 @@
-#include "elements/oleo.h"
+#include "landing/leg.h"
 #include "rigs/rig.h"
 
 #include <math.h>
@@ -48,7 +48,7 @@ bt_status bt_rig_run_static(const bt_gear_params* gear, const bt_static_params* 
     const bt_static_reference_params* ref = &params->reference;
     const bt_rig rig = {.observer = observer, .user = user};
     static_test p = {.speed_mps = params->speed_mps, .step_m = stroke / (double)params->points};
-    bt_oleo_prepare(&gear->oleo, &p.oleo);
+    bt_gear_prepare_oleo(gear, &p.oleo);
     if (!isfinite(bt_oleo_gas_force(&p.oleo, stroke))) {
         bt_diag_add(diag, BT_ERROR, BT_NOWHERE, "stroke: no gas volume is left at %g m", stroke);
         return BT_ERR_INPUT;

@@ -1,5 +1,7 @@
 #include "study/rig_inputs.h"
 
+#include "landing/leg.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -288,7 +290,7 @@ static void check_press(bt_reader* reader, const bt_node* rigs, int kind, const 
     if (!node)
         return;
     bt_oleo oleo;
-    bt_oleo_prepare(nose ? &a->nose_gear.oleo : &a->main_gear.oleo, &oleo);
+    bt_gear_prepare_oleo(nose ? &a->nose_gear : &a->main_gear, &oleo);
     if (!isfinite(bt_oleo_gas_force(&oleo, stroke)))
         bt_reader_error(reader, node->where, "rigs.%s.stroke: no gas volume is left at %g m",
                         bt_rig_keys[kind], stroke);
