@@ -117,7 +117,7 @@ test -s "$jobs/results/reliability.json"
 echo "cluster-test: the merged ledger is the unsharded one: $alone"
 
 # --- the ranks of mpirun in a job -------------------------------------------------------------
-if "$bolter" --version --verbose | grep -q '^mpi '; then
+if "$bolter" --version --verbose | grep -q '^mpi  *Open'; then
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     job=$(sbatch --parsable --ntasks="$(nproc)" --chdir="$PWD" --output="$jobs/mpi.log" <<JOB
 #!/bin/sh

@@ -10,8 +10,8 @@ program=$build/bolter
 man=$build/man
 mkdir -p "$man"
 version=$("$program" --version | head -n 1 | awk '{ print $2 }')
-date=$(git log -1 --format=%cs 2>/dev/null || date -u -d "@${SOURCE_DATE_EPOCH:-0}" +%F)
-export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(date -u -d "$date" +%s)}
+export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
+date=$(date -u -d "@$SOURCE_DATE_EPOCH" +%F)
 
 # page NAME SUMMARY ARGUMENT... : bolter-NAME(1) from what the program says about itself
 page() {

@@ -46,7 +46,7 @@ typedef struct bt_verb {
 extern const bt_verb bt_verb_check, bt_verb_keys, bt_verb_land, bt_verb_campaign, bt_verb_replay,
     bt_verb_fit, bt_verb_reliability, bt_verb_study, bt_verb_sweep, bt_verb_calibrate, bt_verb_rig,
     bt_verb_noise, bt_verb_sensitivity, bt_verb_report, bt_verb_figures, bt_verb_paper,
-    bt_verb_atlas, bt_verb_why, bt_verb_compare;
+    bt_verb_atlas, bt_verb_why, bt_verb_compare, bt_verb_pack, bt_verb_verify;
 
 /// Writes the report page of a study that was read from the command's file.
 BT_CHECKED bt_status bt_command_report(const bt_command* command, const bt_study* study,

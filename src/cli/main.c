@@ -18,7 +18,8 @@ static const bt_verb* const verbs[] = {
     &bt_verb_sweep,       &bt_verb_calibrate,   &bt_verb_campaign, &bt_verb_replay,
     &bt_verb_fit,         &bt_verb_reliability, &bt_verb_study,    &bt_verb_noise,
     &bt_verb_sensitivity, &bt_verb_report,      &bt_verb_figures,  &bt_verb_paper,
-    &bt_verb_atlas,       &bt_verb_why,         &bt_verb_compare,
+    &bt_verb_atlas,       &bt_verb_why,         &bt_verb_compare,  &bt_verb_pack,
+    &bt_verb_verify,
 };
 enum { VERB_COUNT = sizeof verbs / sizeof verbs[0] };
 

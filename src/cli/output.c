@@ -16,6 +16,7 @@ static const struct {
     {".yaml", "FILE.yaml (the values found)", BT_OUTPUT_VALUES},
     {".html", "FILE.html (page for a browser)", BT_OUTPUT_PAGE},
     {".pvd", "FILE.pvd (for ParaView)", BT_OUTPUT_PARAVIEW},
+    {".bolter", "FILE.bolter (the whole study)", BT_OUTPUT_CAPSULE},
     {NULL, "a directory", BT_OUTPUT_DIRECTORY},
 };
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };

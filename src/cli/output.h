@@ -16,10 +16,12 @@ enum {
     BT_OUTPUT_DIRECTORY = 8,
     BT_OUTPUT_PAGE = 16,     ///< FILE.html
     BT_OUTPUT_PARAVIEW = 32, ///< FILE.pvd
+    BT_OUTPUT_CAPSULE = 64,  ///< FILE.bolter
 };
 
 /// The kind of what -o names: a directory that is there, or whose name ends in "/" or has no
-/// suffix, is a directory; .h5, .csv, .yaml, .html and .pvd are files. 0: no -o, or none of these.
+/// suffix, is a directory; .h5, .csv, .yaml, .html, .pvd and .bolter are
+/// files. 0: no -o, or none of these.
 int bt_output_kind(const char* output);
 
 /// Refuses what the verb cannot write (naming what it can), and a file that the command reads.

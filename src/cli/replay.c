@@ -2,6 +2,7 @@
 #include "cli/output.h"
 #include "cli/recorder.h"
 #include "pipeline/find_run.h"
+#include "pipeline/verify.h"
 #include "report/landing_report.h"
 
 #include "base/units.h"
@@ -21,24 +22,14 @@ typedef struct repetition {
     bt_model_params model; ///< as it landed
 } repetition;
 
-/// Repeats the run.
 static bt_status repeat(repetition* r) {
-    const bt_study* study = &r->chain->study;
-    const bt_axes axes = bt_design_axes(study);
-    bt_lander* lander = NULL;
-    BT_TRY(bt_lander_create(&lander));
-    bt_lander_obey(lander, &bt_interrupted);
-    r->model = study->model;
-    const bt_status status =
-        bt_landing_at(lander, &r->model, study->inputs, &axes, r->row->x, &r->result,
-                      r->file ? bt_recorder_observe : NULL, &r->recorder);
-    bt_lander_destroy(lander);
-    return status;
+    return bt_run_repeat(&r->chain->study, r->row, &bt_interrupted, &r->model, &r->result,
+                         r->file ? bt_recorder_observe : NULL, &r->recorder);
 }
 
-static bt_status compare(const bt_ledger_row* row, const bt_landing_result* result, bt_diag* diag) {
-    if (result->state_hash == row->result.state_hash && result->outcome == row->result.outcome &&
-        result->steps == row->result.steps)
+static bt_status compare(const bt_ledger* ledger, const bt_ledger_row* row,
+                         const bt_landing_result* result, bt_diag* diag) {
+    if (bt_run_is_same(ledger, row, result))
         return BT_OK;
     bt_diag_add(diag, BT_ERROR, BT_NOWHERE,
                 "run %lld does not repeat to the bit: state %016" PRIx64 " now, %016" PRIx64
@@ -102,7 +93,7 @@ static bt_status replay(bt_chain* chain, const bt_ledger_row* row) {
     if (status == BT_OK)
         status = repeat(r);
     if (status == BT_OK)
-        status = compare(row, &r->result, &chain->diag);
+        status = compare(chain->ledger, row, &r->result, &chain->diag);
     if (status == BT_OK)
         status = write(r);
     if (status == BT_OK)

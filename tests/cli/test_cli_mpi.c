@@ -26,7 +26,7 @@ static bool no_mpi(void) {
     const char* program = getenv("BOLTER");
     char command[4096];
     snprintf(command, sizeof command,
-             "command -v mpirun >/dev/null && '%s' --version --verbose | grep -q '^mpi '",
+             "command -v mpirun >/dev/null && '%s' --version --verbose | grep -q '^mpi  *Open'",
              program ? program : "build/bolter");
     return system(command) != 0;
 #endif
