@@ -60,9 +60,9 @@ static void write_classifier(FILE* out, const bt_study* study) {
             "each on the classifier, ",
             (long long)study->surrogate.folds, 100 * study->surrogate.holdout,
             study->condition_count, (long long)study->reliability.samples);
-    if (study->reliability.truth_runs > 0)
+    if (study->reliability.high_fidelity_runs > 0)
         fprintf(out, "corrected with %lld fresh landings per condition",
-                (long long)study->reliability.truth_runs);
+                (long long)study->reliability.high_fidelity_runs);
     else
         fprintf(out, "corrected with the landings of the campaign, each judged by a classifier "
                      "that had not seen it");
