@@ -1,7 +1,7 @@
 #include "cli/version.h"
 
 #include "base/arithmetic.h"
-#include "base/tasks.h"
+#include "base/threads.h"
 #include "cluster/cluster.h"
 #include "report/page.h"
 #include "surrogate/predictor.h"

@@ -41,8 +41,7 @@ static void write_design(FILE* out, const bt_study* study) {
         [BT_DESIGN_LATIN_HYPERCUBE] = "a Latin hypercube over the box of their bounds",
         [BT_DESIGN_FULL_FACTORIAL] = "a full factorial over the box of their bounds",
         [BT_DESIGN_MONTE_CARLO] = "independent draws from their distributions",
-        [BT_DESIGN_CONDITIONS] = "shifted Sobol' sequences in the mixture of the conditions' "
-                                 "distributions",
+        [BT_DESIGN_CONDITIONS] = "shifted Sobol' sequences in the mixture of all conditions",
     };
     fprintf(out, "Their inputs were chosen by %s (seed %lld)", words[study->campaign.design],
             (long long)study->campaign.seed);
