@@ -153,7 +153,8 @@ const bt_verb bt_verb_reliability = {
         "condition has the surrogate's estimate with its sampling interval, the "
         "disagreements, and the corrected estimate with an interval that covers both. Trains "
         "the surrogate first when it is out of date. Writes STUDY/reliability.json, .csv and .txt "
-        "and draws reliability over each input into STUDY/figures.\n\n"
+        "and draws reliability over each input, and half-width over landings, into "
+        "STUDY/figures.\n\n"
         "With --indices: for every input, the share of the variance of the surrogate's "
         "outcomes that it alone explains, and its share with all its interactions. Nothing is "
         "written.",

@@ -1,5 +1,7 @@
 #include "report/reliability_figure.h"
 
+#include "base/directory.h"
+#include "base/text.h"
 #include "report/display.h"
 #include "report/figure.h"
 #include "report/figure_text.h"
@@ -7,7 +9,9 @@
 
 #include <ctype.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 // --- figure -----------------------------------------------------------------------------------
 
@@ -89,6 +93,65 @@ static void to_display(bt_reliability_curve* c, double factor) {
             c->at[k][i] *= k == BT_CURVE_VALUE ? factor : 100;
 }
 
+enum { WIDTHS = 4, WIDTH_ROWS = 64 };
+
+/// Columns of convergence.csv: landings, overall, median, largest; widths in points.
+typedef struct width_curve {
+    int count;
+    double at[WIDTHS][WIDTH_ROWS];
+} width_curve;
+
+/// Rows that are no four numbers (the heading, widths that were not known) are left out.
+static void read_widths(const char* text, width_curve* c) {
+    c->count = 0;
+    for (const char* line = text; line && c->count < WIDTH_ROWS;) {
+        const char* at = line;
+        int k = 0;
+        for (; k < WIDTHS; ++k) {
+            const char* end = bt_text_scan_number(at, &c->at[k][c->count]);
+            if (end == at)
+                break;
+            c->at[k][c->count] *= k ? 100 : 1;
+            at = *end == ',' ? end + 1 : end;
+        }
+        c->count += k == WIDTHS;
+        line = strchr(line, '\n');
+        line = line ? line + 1 : NULL;
+    }
+}
+
+static bt_status draw_widths(const bt_study* study, const target* to) {
+    static const char* const labels[WIDTHS] = {"", "as it stands", "median condition",
+                                               "widest condition"};
+    char path[BT_FILE_PATH_MAX], title[512], *text = NULL;
+    width_curve c;
+    BT_TRY(bt_file_path(path, study->directory, "convergence.csv"));
+    if (access(path, F_OK) != 0)
+        return BT_OK;
+    BT_TRY(bt_file_read(path, &text, NULL, to->diag));
+    read_widths(text, &c);
+    free(text);
+    if (c.count < 2)
+        return BT_OK;
+    snprintf(title, sizeof title, "%s: half-width over landings", study->title);
+    bt_series series[WIDTHS - 1];
+    for (int k = 1; k < WIDTHS; ++k)
+        series[k - 1] = (bt_series){.label = labels[k],
+                                    .style = BT_SERIES_LINE_POINTS,
+                                    .count = c.count,
+                                    .x = c.at[0],
+                                    .y = c.at[k]};
+    const bt_figure figure = {.name = "convergence",
+                              .title = title,
+                              .x_label = "landings",
+                              .y_label = "half-width of the 95 % interval, points",
+                              .key_below = true,
+                              .from_zero = true,
+                              .series_count = WIDTHS - 1,
+                              .series = series};
+    return bt_figure_write(&figure, to->folder, to->diag);
+}
+
 static bt_status draw_all(const bt_study* study, const target* to) {
     bt_reliability_csv* csv = NULL;
     bt_status status = bt_reliability_csv_read(study, &csv, to->diag);
@@ -102,6 +165,8 @@ static bt_status draw_all(const bt_study* study, const target* to) {
             status = draw(study, &study->inputs[i], &c, to);
     }
     bt_reliability_csv_destroy(csv);
+    if (status == BT_OK && !to->out)
+        status = draw_widths(study, to);
     return status;
 }
 

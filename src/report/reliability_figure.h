@@ -10,7 +10,9 @@
 /// study, else reliability_KEY; corrected with its interval, the classifier alone beside it. They
 /// bear the study's title.
 ///
-/// @return BT_OK, also when there is no such file; BT_ERR_IO, BT_ERR_INPUT (a column is missing),
+/// STUDY/convergence.csv beside it: half-width over the number of landings, in points.
+///
+/// @return BT_OK, also when there are no such files; BT_ERR_IO, BT_ERR_INPUT (a column is missing),
 ///         said in diag; BT_ERR_MEMORY
 BT_CHECKED bt_status bt_reliability_draw(const bt_study* study, const char* folder, bt_diag* diag);
 

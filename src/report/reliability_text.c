@@ -163,6 +163,17 @@ static bt_status write_event_csv(FILE* out, const bt_reliability_result* result)
     return status;
 }
 
+/// The half-widths after every round, for reliability_figure.c and for other programs.
+static bt_status write_widths(FILE* out, const bt_reliability_result* result) {
+    fputs("landings,overall,median,largest\n", out);
+    for (int i = 0; i < result->width_count; ++i) {
+        const bt_width* w = &result->width[i];
+        fprintf(out, "%lld,%.6g,%.6g,%.6g\n", (long long)w->landings, w->overall, w->median,
+                w->largest);
+    }
+    return BT_OK;
+}
+
 static bt_status write_json(FILE* out, const bt_reliability_result* result) {
     bt_json json = {.out = out};
     bt_reliability_write_json(&json, result);
@@ -170,9 +181,7 @@ static bt_status write_json(FILE* out, const bt_reliability_result* result) {
 }
 
 const bt_reliability_file bt_reliability_files[] = {
-    {"reliability.txt", write_text, false},
-    {"reliability.csv", write_csv, false},
-    {"reliability.json", write_json, false},
-    {"events.csv", write_event_csv, true},
-    {NULL, NULL, false},
+    {"reliability.txt", write_text, false},  {"reliability.csv", write_csv, false},
+    {"reliability.json", write_json, false}, {"convergence.csv", write_widths, false},
+    {"events.csv", write_event_csv, true},   {NULL, NULL, false},
 };

@@ -63,6 +63,25 @@ static void curves_are_in_display_units(void** state) {
         access(toy_path(path, f->directory, "figures/reliability_landing_distance.csv"), F_OK), 0);
 }
 
+/// Points; the heading and a row without widths are no points of the curve.
+static void widths_are_drawn_over_landings(void** state) {
+    const fixture* f = *state;
+    static const char widths[] = "landings,overall,median,largest\n"
+                                 "128,nan,nan,nan\n"
+                                 "256,0.1,0.2,0.3\n"
+                                 "384,0.05,0.1,0.25\n";
+    char path[4096];
+    assert_int_equal(bt_file_write(toy_path(path, f->directory, "convergence.csv"), widths,
+                                   strlen(widths), NULL),
+                     BT_OK);
+    assert_int_equal(draw(f, table), BT_OK);
+    char* data = read_file(f, "figures/convergence.csv");
+    assert_non_null(strstr(data, "\n256,10\n384,5\n"));
+    assert_non_null(strstr(data, "\n256,30\n384,25\n"));
+    assert_null(strstr(data, "128"));
+    free(data);
+}
+
 /// A title is one quoted text of the script, whatever is in it.
 static void titles_are_no_commands(void** state) {
     const fixture* f = *state;
@@ -81,6 +100,7 @@ static void other_columns_are_refused(void** state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(curves_are_in_display_units),
+        cmocka_unit_test(widths_are_drawn_over_landings),
         cmocka_unit_test(titles_are_no_commands),
         cmocka_unit_test(other_columns_are_refused),
     };
