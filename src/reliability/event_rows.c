@@ -116,9 +116,10 @@ static bt_status fill_zones(const family* f, bt_event_estimate* zone) {
 
 static void count_disagreements(const family* f, bt_event_row* row) {
     for (int i = 0; i < f->evidence.count; ++i) {
-        const int said = f->judged->engaged[i], is = f->evidence.label[i];
-        row->judged += said >= 0 && is >= 0;
-        row->disagreed += said >= 0 && is >= 0 && said != is;
+        const int8_t *said = &f->judged->engaged[i], *is = &f->evidence.label[i];
+        const bool both = *said >= 0 && *is >= 0;
+        row->judged += both;
+        row->disagreed += both && *said != *is;
     }
 }
 

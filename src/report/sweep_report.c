@@ -114,12 +114,14 @@ bt_status bt_sweep_draw(const bt_study* study, const bt_sweep_plan* plan, const 
             .label = labels[count], .count = path->count, .x = path->travelled_m, .y = height};
         height += path->count;
     }
-    if (plan->said && bt_study_is_reference(study) && count < BT_SERIES_MAX)
-        series[count++] = (bt_series){.label = plan->said_label,
-                                      .style = BT_SERIES_REFERENCE,
-                                      .count = CORNERS,
-                                      .x = x,
-                                      .y = y};
+    if (plan->said && bt_study_is_reference(study) && count < BT_SERIES_MAX) {
+        series[count] = (bt_series){.label = plan->said_label,
+                                    .style = BT_SERIES_REFERENCE,
+                                    .count = CORNERS,
+                                    .x = x,
+                                    .y = y};
+        ++count;
+    }
     figure_title(study, plan, title, sizeof title);
     const bt_figure figure = {.name = plan->name,
                               .title = title,
