@@ -33,8 +33,9 @@ static void example_goes_behind_the_word_that_its_verb_wants_first(void** state)
 static void example_that_is_not_there_is_a_wrong_use_that_lists_them(void** state) {
     fixture* f = *state;
     assert_int_equal(bolter(f, "land -e referense"), 2);
-    assert_has(f->err,
-               "there is no \"referense\"; there are: carrier, paper, reference, rigs/currey");
+    assert_has(
+        f->err,
+        "there is no \"referense\"; there are: carrier, paper, rare, reference, rigs/currey");
     assert_int_equal(bolter(f, "land -e ../studies/reference"), 2);
     assert_int_equal(bolter(f, "land " REFERENCE " -e reference"), 2);
     assert_has(f->err, "one argument too many");
