@@ -2,48 +2,28 @@
 
 #include "mechanics/vec.h"
 
-/// Stroke and its rate; the ends of the damper and its direction from a to b.
-static double stroke(const bt_element* element, const bt_motion* motion, double end_a[3],
-                     double end_b[3], double direction[3], double* rate) {
+static double stroke(const bt_element* element, const bt_motion* motion, bt_link* link) {
     const bt_hook_damper_mount* m = element->data;
-    double velocity_a[3], velocity_b[3];
-    bt_point_position(motion, element->body_a, m->point_a_m, end_a);
-    bt_point_position(motion, element->body_b, m->point_b_m, end_b);
-    bt_point_velocity(motion, element->body_a, m->point_a_m, velocity_a);
-    bt_point_velocity(motion, element->body_b, m->point_b_m, velocity_b);
-    for (int i = 0; i < 3; ++i)
-        direction[i] = end_b[i] - end_a[i];
-    const double distance = bt_norm(direction);
-    *rate = 0;
-    for (int i = 0; i < 3; ++i) {
-        direction[i] /= distance;
-        *rate -= direction[i] * (velocity_b[i] - velocity_a[i]);
-    }
-    return m->length_m - distance;
+    bt_link_between(motion, element->body_a, m->point_a_m, element->body_b, m->point_b_m, link);
+    return m->length_m - link->distance_m;
 }
 
 static void damper_force(const bt_element* element, const bt_motion* motion, double* wrench,
                          double* output) {
     const bt_hook_damper_mount* m = element->data;
-    double end_a[3], end_b[3], direction[3], rate, on_a[3], on_b[3];
-    const double stroke_m = stroke(element, motion, end_a, end_b, direction, &rate);
-    const double force = bt_hook_damper_force(&m->damper, stroke_m, rate);
-    for (int i = 0; i < 3; ++i) {
-        on_b[i] = force * direction[i];
-        on_a[i] = -on_b[i];
-    }
-    bt_wrench_add(motion, element->body_a, end_a, on_a, wrench);
-    bt_wrench_add(motion, element->body_b, end_b, on_b, wrench);
+    bt_link link;
+    const double stroke_m = stroke(element, motion, &link);
+    const double force = bt_hook_damper_force(&m->damper, stroke_m, link.closing_mps);
+    bt_link_push(motion, element->body_a, element->body_b, &link, force, wrench);
     output[BT_HOOK_DAMPER_STROKE] = stroke_m;
-    output[BT_HOOK_DAMPER_RATE] = rate;
+    output[BT_HOOK_DAMPER_RATE] = link.closing_mps;
     output[BT_HOOK_DAMPER_FORCE] = force;
 }
 
 static double damper_energy(const bt_element* element, const bt_motion* motion) {
     const bt_hook_damper_mount* m = element->data;
-    double end_a[3], end_b[3], direction[3], rate;
-    return bt_hook_damper_energy(&m->damper,
-                                 stroke(element, motion, end_a, end_b, direction, &rate));
+    bt_link link;
+    return bt_hook_damper_energy(&m->damper, stroke(element, motion, &link));
 }
 
 static bt_law damper_law(const bt_element* element, const double* output, const char** what) {

@@ -74,45 +74,28 @@ const bt_element_type bt_strut_type = {
 
 /* ---- held by a pin at each end ---- */
 
-/// Stroke and its rate; both ends and the unit vector from a to b.
-static double link_stroke(const bt_element* element, const bt_motion* motion, double a[3],
-                          double b[3], double unit[3], double* rate) {
+static double link_stroke(const bt_element* element, const bt_motion* motion, bt_link* link) {
     const bt_strut_link* s = element->data;
-    double va[3], vb[3];
-    bt_point_position(motion, element->body_a, s->point_a_m, a);
-    bt_point_position(motion, element->body_b, s->point_b_m, b);
-    bt_point_velocity(motion, element->body_a, s->point_a_m, va);
-    bt_point_velocity(motion, element->body_b, s->point_b_m, vb);
-    for (int i = 0; i < 3; ++i)
-        unit[i] = b[i] - a[i];
-    const double length = bt_norm(unit);
-    for (int i = 0; i < 3; ++i)
-        unit[i] /= length;
-    *rate = bt_dot(unit, va) - bt_dot(unit, vb);
-    return s->length_m - length;
+    bt_link_between(motion, element->body_a, s->point_a_m, element->body_b, s->point_b_m, link);
+    return s->length_m - link->distance_m;
 }
 
 static void link_force(const bt_element* element, const bt_motion* motion, double* wrench,
                        double* output) {
     const bt_strut_link* s = element->data;
-    double a[3], b[3], unit[3], rate, on_a[3], on_b[3];
-    const double stroke_m = link_stroke(element, motion, a, b, unit, &rate);
-    const double force = bt_oleo_force(&s->oleo, stroke_m, rate);
-    for (int i = 0; i < 3; ++i) {
-        on_b[i] = force * unit[i];
-        on_a[i] = -on_b[i];
-    }
-    bt_wrench_add(motion, element->body_a, a, on_a, wrench);
-    bt_wrench_add(motion, element->body_b, b, on_b, wrench);
+    bt_link link;
+    const double stroke_m = link_stroke(element, motion, &link);
+    const double force = bt_oleo_force(&s->oleo, stroke_m, link.closing_mps);
+    bt_link_push(motion, element->body_a, element->body_b, &link, force, wrench);
     output[BT_STRUT_STROKE] = stroke_m;
-    output[BT_STRUT_RATE] = rate;
+    output[BT_STRUT_RATE] = link.closing_mps;
     output[BT_STRUT_FORCE] = force;
 }
 
 static double link_energy(const bt_element* element, const bt_motion* motion) {
     const bt_strut_link* s = element->data;
-    double a[3], b[3], unit[3], rate;
-    return bt_oleo_energy(&s->oleo, link_stroke(element, motion, a, b, unit, &rate));
+    bt_link link;
+    return bt_oleo_energy(&s->oleo, link_stroke(element, motion, &link));
 }
 
 static bt_law link_law(const bt_element* element, const double* output, const char** what) {

@@ -49,3 +49,31 @@ void bt_wrench_add_torque(const bt_motion* motion, int body, const double torque
     bt_unrotate(motion->rotation + 9 * body, torque_Nm, local);
     bt_add_scaled(wrench + 6 * body + 3, 1, local);
 }
+
+void bt_link_between(const bt_motion* motion, int body_a, const double point_a_m[3], int body_b,
+                     const double point_b_m[3], bt_link* link) {
+    double velocity_a[3], velocity_b[3];
+    bt_point_position(motion, body_a, point_a_m, link->end_a);
+    bt_point_position(motion, body_b, point_b_m, link->end_b);
+    bt_point_velocity(motion, body_a, point_a_m, velocity_a);
+    bt_point_velocity(motion, body_b, point_b_m, velocity_b);
+    for (int i = 0; i < 3; ++i)
+        link->direction[i] = link->end_b[i] - link->end_a[i];
+    link->distance_m = bt_norm(link->direction);
+    link->closing_mps = 0;
+    for (int i = 0; i < 3; ++i) {
+        link->direction[i] /= link->distance_m;
+        link->closing_mps -= link->direction[i] * (velocity_b[i] - velocity_a[i]);
+    }
+}
+
+void bt_link_push(const bt_motion* motion, int body_a, int body_b, const bt_link* link,
+                  double force_N, double* wrench) {
+    double on_a[3], on_b[3];
+    for (int i = 0; i < 3; ++i) {
+        on_b[i] = force_N * link->direction[i];
+        on_a[i] = -on_b[i];
+    }
+    bt_wrench_add(motion, body_a, link->end_a, on_a, wrench);
+    bt_wrench_add(motion, body_b, link->end_b, on_b, wrench);
+}

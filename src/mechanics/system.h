@@ -261,4 +261,19 @@ void bt_wrench_add(const bt_motion* motion, int body, const double position_m[3]
 void bt_wrench_add_torque(const bt_motion* motion, int body, const double torque_Nm[3],
                           double* wrench);
 
+/// What lies between a point of each of two bodies, pinned to both.
+typedef struct bt_link {
+    double end_a[3], end_b[3]; ///< world, m
+    double direction[3];       ///< unit, from a to b
+    double distance_m;
+    double closing_mps; ///< rate at which the distance shrinks
+} bt_link;
+
+/// Points in the bodies' frames; they must not coincide.
+void bt_link_between(const bt_motion* motion, int body_a, const double point_a_m[3], int body_b,
+                     const double point_b_m[3], bt_link* link);
+/// Adds a force along the link to the wrenches of both bodies: positive pushes them apart.
+void bt_link_push(const bt_motion* motion, int body_a, int body_b, const bt_link* link,
+                  double force_N, double* wrench);
+
 #endif
