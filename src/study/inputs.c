@@ -152,6 +152,8 @@ static void add_condition(bt_reader* reader, bt_study* study, int index, const b
     double mean;
     if (!bt_reader_number(reader, input->field, node, path, true, &mean))
         return;
+    if (!input->random) // its distribution was refused: said once, where it stands
+        return;
     if (input->bounded && !(mean >= input->lower && mean <= input->upper)) {
         char lower[64], upper[64];
         const char* unit;

@@ -178,6 +178,13 @@ static void samples_that_cannot_be_are_refused_at_their_place(void** state) {
     assert_says(f, DRAWN SINK "discrete, values: [3 m/s], probabilities: [0.5, 0.5]}\n", "",
                 "s.yaml:3:80: error: uncertainty.landing.sink_speed.probabilities: 2 probabilities "
                 "for 1 values\n");
+    // once, not for every condition that would move its mean
+    assert_says(f,
+                DRAWN SINK "empirical, file: t.csv}\n"
+                           "reliability:\n  conditions: {landing.sink_speed: [3 m/s, 4 m/s]}\n",
+                "v [m/s]\n3.1\n",
+                "s.yaml:3:55: error: uncertainty.landing.sink_speed: an empirical distribution "
+                "needs two different values at least; here is one\n");
 }
 
 #define PAIRS                                                                                      \
