@@ -3,6 +3,7 @@
 #include "base/units.h"
 #include "campaign/design.h"
 #include "campaign/executor.h"
+#include "reliability/stop.h"
 
 #include <math.h>
 #include <string.h>
@@ -153,6 +154,7 @@ static void warn_of_span(const bt_study* study, bt_diag* diag) {
 bt_status bt_stage_check(const bt_study* study, bt_check_result* result, bt_diag* diag) {
     bt_design* design = NULL;
     *result = (bt_check_result){0};
+    BT_TRY(bt_stop_check(study, diag));
     BT_TRY(bt_design_create(study, &design, diag));
     result->runs = bt_design_count(design);
     bt_design_destroy(design);

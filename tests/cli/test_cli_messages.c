@@ -22,6 +22,8 @@ static void every_failure_says_why(void** state) {
     } cases[] = {
         {"check no/such.yaml", 5},
         {"check " REFERENCE " --set aircraft.mass=wrong", 3},
+        {"check " REFERENCE " --set campaign.design=sobol --set reliability.half_width=0.01", 3},
+        {"check " REFERENCE " --set campaign.max_landings=9000", 3},
         {"keys one two three", 2},
         {"land no/such.yaml", 5},
         {"land " REFERENCE " --set aircraft.mass='300 kg'", 3},
