@@ -72,7 +72,7 @@ export function sample(title = "Hook and cable, a made-up study") {
         corrected_ci95: [[0.57, 0.59], [0.92, 0.94], [0.95, 0.97], [0.93, 0.95], [0.9, 0.92], [0.95, 0.97]][i], surrogate: [0.59, 0.93, 0.965, 0.946, 0.937, 0.988][i] })),
       differences: [{ parameter: "landing.distance", from: 6, to: 8, difference: -0.038, ci95: [-0.044, -0.032] }],
     },
-    convergence: [{ landings: 1024, median: 0.012, largest: 0.03 }, { landings: 4096, median: 0.006, largest: 0.014 }, { landings: 8192, median: 0.0045, largest: 0.009 }],
+    convergence: [{ landings: 1024, overall: 0.006, median: 0.012, largest: 0.03 }, { landings: 4096, overall: 0.003, median: 0.006, largest: 0.014 }, { landings: 8192, overall: 0.002, median: 0.0045, largest: 0.009 }],
     landings: {
       inputs: floats32(x.flat()), margins: floats32(x.map(([, d]) => (d < 3 ? -0.005 : 0.03))),
       modes: x.map(([, d], i) => (d < 3 ? "c" : i % 7 ? "b" : "a")).join(""),

@@ -1,6 +1,7 @@
 import * as Plot from "@observablehq/plot";
 import { element } from "../dom.js";
 import { below, figure, plotStyle, series } from "../figure.js";
+import { lanes } from "./lanes.js";
 import { Motion } from "./motion.js";
 import { Stage } from "./scene.js";
 
@@ -40,10 +41,10 @@ function panel(motion, { label, scale, curves }, cursors) {
   });
 }
 
-/** Where an event's mark stands: three rows take turns, and what is near the end is read to the left. */
-function place(motion, event, i) {
+/** Where an event's mark stands along the slider; what is near the end is read to the left. */
+function place(motion, event) {
   const share = (100 * (event.time_s - motion.begin)) / (motion.end - motion.begin);
-  return `top:${1.35 * (i % 4)}rem;` + (share > 60 ? `right:${100 - share}%;border-right:2px solid var(--mark)` : `left:${share}%;border-left:2px solid var(--mark)`);
+  return share > 60 ? `right:${100 - share}%;border-right:2px solid var(--mark)` : `left:${share}%;border-left:2px solid var(--mark)`;
 }
 
 /** The recorded landings with their controls: one, or two side by side, driven by one clock. */
@@ -73,6 +74,7 @@ export class Player {
     this.status = element("output", { class: "clock" });
     this.slider = element("input", { type: "range", min: 0, max: 10000, value: 0, "aria-label": "time", oninput: () => this.seek(this.slider.value / 10000) });
     this.marks = element("div", { class: "marks" });
+    new ResizeObserver(() => this.stack()).observe(this.slider);
     this.button = element("button", { type: "button", onclick: () => this.toggle() }, "Play");
     const views = { side: "side", hook: "hook close-up", above: "above", orbit: "free" };
     return element("div", { class: "player", tabindex: 0, onkeydown: (event) => this.key(event) },
@@ -107,10 +109,19 @@ export class Player {
     this.time = first.begin;
     this.cursors.clear();
     this.curveBox.replaceChildren(...PANELS.map((p) => panel(first, p, this.cursors)).filter(Boolean));
-    this.marks.replaceChildren(...first.record.events.map((event, i) =>
-      element("button", { type: "button", title: event.what, style: place(first, event, i),
+    this.marks.replaceChildren(...first.record.events.map((event) =>
+      element("button", { type: "button", title: event.what, style: place(first, event),
         onclick: () => { this.time = event.time_s; this.draw(); } }, event.what)));
+    this.stack();
     this.draw();
+  }
+
+  /** Puts the marks one below another where their texts would meet. */
+  stack() {
+    const buttons = [...this.marks.children];
+    const lane = lanes(buttons.map((b) => [b.offsetLeft, b.offsetLeft + b.offsetWidth]));
+    buttons.forEach((b, i) => { b.style.top = `${1.35 * lane[i]}rem`; });
+    this.marks.style.height = `${1.35 * (1 + Math.max(-1, ...lane))}rem`;
   }
 
   look(view) { this.stages.forEach((stage) => stage.look(view)); this.draw(); }

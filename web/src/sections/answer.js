@@ -9,7 +9,7 @@ export function answer(data) {
   if (all)
     parts.push(element("p", { class: "answer" },
       "The hook catches the wire in ", element("strong", {}, percent(all.corrected, interval)),
-      ` of landings drawn as this study says (95 % interval ${percent(interval?.[0], interval)} to ${percent(interval?.[1], interval)}).`));
+      ` of landings drawn as this study says (95\u00a0% interval ${percent(interval?.[0], interval)} to ${percent(interval?.[1], interval)}).`));
   const counts = data.counts;
   if (counts)
     parts.push(element("p", {},

@@ -1,7 +1,7 @@
 import * as Plot from "@observablehq/plot";
 import { percent } from "../data.js";
 import { element, table } from "../dom.js";
-import { acrossAxis, below, figure, key, plotStyle, series } from "../figure.js";
+import { acrossAxis, below, figure, plotStyle, series } from "../figure.js";
 
 const figures = {
   "landing.sink_speed": "Fig. 19", "landing.pitch": "Fig. 20",
@@ -19,6 +19,7 @@ function curve(data, input, rows) {
     columns: [`${input.path} [${input.unit}]`, "corrected", "lower", "upper", "surrogate", "surrogate_lower", "surrogate_upper",
       "reweighted", "reweighted_lower", "reweighted_upper"],
     rows: rows.map((r) => [at(r), r.corrected, ...(r.corrected_ci95 ?? []), r.surrogate, ...(r.surrogate_ci95 ?? ["", ""]), r.reweighted, ...(r.reweighted_ci95 ?? [])]),
+    legend: ["corrected", "classifier alone", ...(rows.some((r) => r.reweighted != null) ? ["reweighted"] : [])].map((what, i) => [what, series[i]]),
     draw: (width) => Plot.plot({
       width, height: 320, style: plotStyle, marginLeft: 50, ...below,
       x: { ...acrossAxis(`mean of ${input.label}, ${input.unit}`), nice: true, inset: 6 },
@@ -30,8 +31,6 @@ function curve(data, input, rows) {
           title: (r) => `${at(r).toPrecision(4)} ${input.unit}: ${percent(r.corrected, r.corrected_ci95)}`, tip: true }),
         Plot.dot(rows, { x: at, y: "surrogate", stroke: series[1], symbol: "times", r: 4 }),
         Plot.dot(rows.filter((r) => r.reweighted != null), { x: at, y: "reweighted", stroke: series[2], symbol: "diamond", r: 4 }),
-        ...key(["corrected", "classifier alone", ...(rows.some((r) => r.reweighted != null) ? ["reweighted"] : [])],
-          (_, i) => series[i], { anchor: "bottom-right", dy: -36 }),
       ],
     }),
   });
