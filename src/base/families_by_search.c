@@ -1,4 +1,4 @@
-/// Families whose quantiles are inverted by search, and the heavy and light tails beside them.
+/// Families whose quantiles are found by search: beta, gamma, Student.
 #include "base/families.h"
 
 #include <gsl/gsl_cdf.h>
@@ -145,89 +145,6 @@ static double gamma_log_density(const bt_distribution* d, double x) {
 const bt_family bt_family_gamma = {
     {"mean", "sd", "lower"}, check_gamma,    gamma_quantile, gamma_cdf,
     gamma_log_density,       mean_parameter, BT_MOVE_MEAN};
-
-// --- Rayleigh -------------------------------------------------------------------------------
-
-static const char* check_rayleigh(const bt_distribution* d) {
-    return d->scale > 0 ? NULL : "scale must be positive";
-}
-
-static double rayleigh_quantile(const bt_distribution* d, double u) {
-    return d->lower + d->scale * sqrt(-2 * log1p(-u));
-}
-
-static double rayleigh_cdf(const bt_distribution* d, double x) {
-    const double t = (x - d->lower) / d->scale;
-    return t <= 0 ? 0 : -expm1(-0.5 * t * t);
-}
-
-static double rayleigh_log_density(const bt_distribution* d, double x) {
-    const double t = (x - d->lower) / d->scale;
-    return t > 0 ? log(t) - 0.5 * t * t - log(d->scale) : -INFINITY;
-}
-
-static double rayleigh_mean(const bt_distribution* d) {
-    return d->lower + d->scale * sqrt(M_PI_2);
-}
-
-const bt_family bt_family_rayleigh = {{"scale", "lower"}, check_rayleigh,       rayleigh_quantile,
-                                      rayleigh_cdf,       rayleigh_log_density, rayleigh_mean,
-                                      BT_MOVE_ALL};
-
-// --- logistic -------------------------------------------------------------------------------
-
-static double logistic_scale(const bt_distribution* d) {
-    return d->sd * sqrt(3) / M_PI;
-}
-
-static const char* check_logistic(const bt_distribution* d) {
-    return d->sd > 0 ? NULL : "sd must be positive";
-}
-
-static double logistic_quantile(const bt_distribution* d, double u) {
-    return d->mean + logistic_scale(d) * (log(u) - log1p(-u));
-}
-
-static double logistic_cdf(const bt_distribution* d, double x) {
-    return 1 / (1 + exp(-(x - d->mean) / logistic_scale(d)));
-}
-
-static double logistic_log_density(const bt_distribution* d, double x) {
-    const double t = fabs(x - d->mean) / logistic_scale(d); // symmetric
-    return -t - 2 * log1p(exp(-t)) - log(logistic_scale(d));
-}
-
-const bt_family bt_family_logistic = {{"mean", "sd"}, check_logistic,       logistic_quantile,
-                                      logistic_cdf,   logistic_log_density, mean_parameter,
-                                      BT_MOVE_MEAN};
-
-// --- log-uniform ----------------------------------------------------------------------------
-
-static const char* check_log_uniform(const bt_distribution* d) {
-    if (!(d->lower > 0))
-        return "lower must be positive";
-    return d->lower < d->upper ? NULL : "lower must be below upper";
-}
-
-static double log_uniform_quantile(const bt_distribution* d, double u) {
-    return fmin(fmax(d->lower * exp(u * log(d->upper / d->lower)), d->lower), d->upper);
-}
-
-static double log_uniform_cdf(const bt_distribution* d, double x) {
-    return x <= d->lower ? 0 : fmin(log(x / d->lower) / log(d->upper / d->lower), 1);
-}
-
-static double log_uniform_log_density(const bt_distribution* d, double x) {
-    return x < d->lower || x > d->upper ? -INFINITY : -log(x) - log(log(d->upper / d->lower));
-}
-
-static double log_uniform_mean(const bt_distribution* d) {
-    return (d->upper - d->lower) / log(d->upper / d->lower);
-}
-
-const bt_family bt_family_log_uniform = {
-    {"lower", "upper"},      check_log_uniform, log_uniform_quantile, log_uniform_cdf,
-    log_uniform_log_density, log_uniform_mean,  BT_MOVE_SCALE};
 
 // --- Student --------------------------------------------------------------------------------
 
