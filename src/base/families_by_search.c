@@ -19,7 +19,8 @@ static double middle_of(double low, double high) {
 typedef double two_parameters(double x, double a, double b);
 
 /// The x > 0 at which a tail has the probability p: Newton's method on log(tail) over log(x), where
-/// both tails are nearly straight, kept inside a shrinking bracket.
+/// both tails are nearly straight, kept inside a shrinking bracket. GSL's own inverses come back to
+/// p within 3e-9 only for a gamma of shape 5e4, and miss by a tenth for a beta of 5e5 and 0.1.
 ///
 /// @param sign  +1: the tail rises with x (lower tail); -1: it falls
 /// @param x     where to begin
