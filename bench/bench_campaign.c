@@ -36,6 +36,7 @@ static double overhead_per_run(const bt_study* study) {
     if (!outside)
         return NAN;
     *outside = *study;
+    outside->campaign.design = BT_DESIGN_SOBOL; // over a box, which can be put outside the model
     outside->campaign.samples = REFUSED;
     outside->campaign.max_failed = 1;
     outside->inputs[0].lower = -20;
